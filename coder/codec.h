@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "mesh/progress.h"
+#include "remesh/semiregular.h"
+
+namespace gsp {
+
+using Bytes = std::vector<std::uint8_t>;
+
+enum class Wavelet : std::uint8_t { Loop = 0 };
+
+const char* wavelet_name(Wavelet wavelet);
+
+struct EncodeOptions {
+  Wavelet wavelet = Wavelet::Loop;
+  /// Bits per coordinate of the finest quantization of normal components relative to the bounding box, 8..24.
+  /// It sets where the stream ends: the whole stream codes every coefficient to half of this step.
+  int precision_bits = 16;
+  /// Step of tangential components over that of normal ones, a power of two: 1, 2, 4, 8.
+  int tangential_ratio = 4;
+};
+
+/// Codes a semi-regular mesh as an embedded stream: a checksummed header (connectivity through Draco), then bit-planes,
+/// most significant first. Any prefix that holds the header decodes (design.md, `*.pgc`).
+/// Throws Error: BadOption, NonFinite.
+Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress& progress);
+
+/// Number of bytes that a prefix needs at least. Throws Error(BadStream).
+std::size_t header_bytes(const Bytes& stream);
+
+/// Decodes the first `budget` bytes of the stream (all of them where it is larger). Hostile bytes are safe.
+/// Throws Error: BadStream where the header is damaged, Truncated where the budget does not hold it.
+SemiregularMesh decode(const Bytes& stream, std::size_t budget);
+
+}  // namespace gsp

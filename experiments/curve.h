@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "coder/codec.h"
+#include "mesh/progress.h"
+#include "param/parameterize.h"
+#include "remesh/remesh.h"
+
+namespace gsp {
+
+/// One row of curve.csv: one decoded size of one method on one model. Distances are relative to the input's bounding-box
+/// diagonal, bytes are those that were decoded.
+struct CurvePoint {
+  std::string model;
+  std::string method;  ///< gsp, maps, maps-smoothed, draco, decimate-draco
+  double gamma = 0.0, mu = 0.0;
+  int base_vertices = 0, base_faces = 0, level = 0;
+  std::string wavelet, coder;
+  std::size_t bytes = 0;
+  double bits_per_vertex = 0.0;  ///< of the input
+  double rms_forward = 0.0, rms_backward = 0.0, rms = 0.0, hausdorff = 0.0;
+  double psnr_db = 0.0;
+  std::size_t samples = 0;
+  double standard_error_db = 0.0;
+  double remesh_error = 0.0;     ///< ceiling of the method's curve; 0 for the anchors
+  std::uint64_t seed = 0;
+};
+
+struct CurveOptions {
+  ParameterizeOptions parameterize;
+  std::vector<Method> methods = {Method::Gsp, Method::MapsSmoothed};
+  RemeshOptions remesh;
+  EncodeOptions encode;
+  std::vector<std::size_t> budgets;  ///< bytes; empty: 256, 512, 1024, ... up to the whole stream
+  std::size_t samples = 400000;      ///< per direction and point
+  std::uint64_t seed = 1;
+  bool anchors = true;               ///< Draco on the input and decimate-then-Draco
+};
+
+/// Everything measured on one model.
+struct CurveRun {
+  std::vector<CurvePoint> points;
+  std::vector<OmegaRecord> omega;
+};
+
+/// The main job on one surface: parameterize by every method on one base complex, remesh, encode once, decode at each
+/// budget, measure against the input; then the anchors.
+CurveRun rate_distortion_curve(const Mesh& mesh, const std::string& model, const CurveOptions& options, Progress& progress);
+
+}  // namespace gsp

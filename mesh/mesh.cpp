@@ -1,0 +1,30 @@
+#include "mesh/mesh.h"
+
+#include <limits>
+
+#include <Eigen/Geometry>
+
+namespace gsp {
+
+double bounding_box_diagonal(const Mesh& mesh) {
+  if (mesh.faces.empty()) return 0.0;
+  Eigen::AlignedBox3d box;
+  for (const Triangle& face : mesh.faces)
+    for (int vertex : face) box.extend(mesh.positions[vertex]);
+  return box.diagonal().norm();
+}
+
+double face_area(const Mesh& mesh, int face) {
+  const Triangle& t = mesh.faces[face];
+  const Vec3 a = mesh.positions[t[1]] - mesh.positions[t[0]];
+  const Vec3 b = mesh.positions[t[2]] - mesh.positions[t[0]];
+  return 0.5 * a.cross(b).norm();
+}
+
+double surface_area(const Mesh& mesh) {
+  double sum = 0.0;
+  for (int f = 0; f < mesh.face_count(); ++f) sum += face_area(mesh, f);
+  return sum;
+}
+
+}  // namespace gsp

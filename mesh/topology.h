@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/error.h"
+#include "mesh/mesh.h"
+
+namespace gsp {
+
+/// One connected component (by edges) of the faces.
+struct ComponentReport {
+  int vertices = 0;
+  int edges = 0;
+  int faces = 0;
+  int boundary_loops = 0;
+  /// (2 - Euler characteristic - boundary loops) / 2; empty where the component is not an orientable manifold.
+  std::optional<int> genus;
+  int first_face = 0;
+};
+
+/// What a surface is and why it cannot be used. All indices are those of the mesh. O(V + F).
+struct TopologyReport {
+  int vertices = 0;
+  int faces = 0;
+  std::vector<ComponentReport> components;
+  int boundary_loops = 0;
+  std::vector<int> isolated_vertices;
+  std::vector<int> non_finite_vertices;
+  std::vector<std::array<int, 2>> non_manifold_edges;      ///< vertex pairs of more than two faces
+  std::vector<int> non_manifold_vertices;                  ///< faces around it form more than one fan
+  std::vector<std::array<int, 2>> misoriented_edges;       ///< both faces run through it the same way
+  std::vector<int> repeated_index_faces;                   ///< a face that names a vertex twice
+  std::vector<int> duplicate_faces;                        ///< all but the first face on the same three vertices
+  std::vector<int> zero_area_faces;                        ///< collinear or coincident corners; usable
+  int duplicate_positions = 0;                             ///< vertices at the exact position of an earlier one
+
+  /// True where parameterize accepts it.
+  bool usable() const { return !refusal.has_value(); }
+  /// The first reason why not, most basic first.
+  std::optional<Error> refusal;
+};
+
+TopologyReport topology_report(const Mesh& mesh);
+
+/// Throws the report's refusal, if any.
+void require_parameterizable(const Mesh& mesh);
+
+}  // namespace gsp

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "mesh/progress.h"
+#include "param/parameterization.h"
+
+namespace gsp {
+
+/// How the map over the base complex is made.
+enum class Method {
+  Gsp,          ///< the paper: global system with transitions, corner relaxation (§3.2)
+  Maps,         ///< the initial map of the simplification, as MAPS leaves it (Lee et al. 1998)
+  MapsSmoothed  ///< the same, smoothed by Loop subdivision on the parameters (the paper's figure 1a)
+};
+
+/// "gsp", "maps", "maps-smoothed".
+const char* method_name(Method method);
+
+struct ParameterizeOptions {
+  Method method = Method::Gsp;
+  /// Base vertices to stop at, at least 4. 0: automatic, before metric distortion dominates Ω (§3.1.1, figure 5d).
+  /// The simplification stops earlier, with a note, where no vertex can be removed any more.
+  int base_vertices = 0;
+  double gamma = 2.0;  ///< weight of triangle shape in Ω, >= 0
+  double mu = 1.0;     ///< weight of area dispersion in Ω, >= 0
+  int relaxations = 8; ///< at most so many rounds of solve and corner relaxation, >= 0; it ends when no corner moves
+};
+
+/// One vertex removal: the three area-weighted parts of Ω, for figure 5d.
+struct OmegaRecord {
+  int remaining_vertices = 0;
+  double shape = 0.0;       ///< Σ A γ (σ-1)²
+  double dispersion = 0.0;  ///< Σ A μ (ρ-1)²
+  double metric = 0.0;      ///< Σ A (δ-1)²
+  double omega() const { return shape + dispersion + metric; }
+};
+
+
+struct ParameterizeResult {
+  Parameterization map;
+  std::vector<OmegaRecord> omega;
+  int flips_before_repair = 0;
+  int relaxation_rounds = 0;
+  int corners_moved = 0;
+};
+
+/// Computes a globally smooth parameterization of a manifold surface, or a baseline. For Method::Gsp the result is
+/// always valid in the sense of `check_map`, or it throws. Baselines may hold flipped faces, as published.
+/// Throws Error: the refusals of topology.h, BadOption, InvalidMap, SolverFailed, Cancelled.
+ParameterizeResult parameterize(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress);
+
+/// The same for several methods on one base complex: options.method is ignored.
+std::vector<ParameterizeResult> parameterize_all(const Mesh& mesh, const std::vector<Method>& methods,
+                                                 const ParameterizeOptions& options, Progress& progress);
+
+/// Writes remaining_vertices, shape, dispersion, metric, omega, one row per removal.
+void write_omega_csv(const std::string& path, const std::vector<OmegaRecord>& record);
+
+}  // namespace gsp

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace gsp {
+
+/// One level of a semi-regular mesh's connectivity. Vertex and face numbering is fixed by these rules, so that connectivity
+/// is a function of the base faces and the level alone:
+/// - edges are numbered by first appearance over the faces, corner order (0,1), (1,2), (2,0);
+/// - the vertex inserted on edge e of a level with V vertices is V + e on the next;
+/// - face f = (a,b,c) with midpoints (ab, bc, ca) becomes faces 4f..4f+3 = (a,ab,ca), (ab,b,bc), (ca,bc,c), (ab,bc,ca).
+struct SubdivisionLevel {
+  int vertex_count = 0;
+  std::vector<Triangle> faces;
+  std::vector<std::array<int, 2>> edges;       ///< end vertices, in the direction of the first face that has it
+  std::vector<std::array<int, 3>> face_edges;  ///< #F, edge of corners (0,1), (1,2), (2,0)
+  std::vector<std::array<int, 2>> edge_faces;  ///< #E, the one or two faces; second is -1 on a boundary
+};
+
+/// Levels 0 (base) to `level`. O(total faces).
+std::vector<SubdivisionLevel> subdivision_levels(int base_vertices, const std::vector<Triangle>& base_faces, int level);
+
+/// A mesh with subdivision connectivity: base faces quadrisected `level` times, positions level by level
+/// (base vertices first, then for each level the vertices of its edges in edge order).
+struct SemiregularMesh {
+  int level = 0;
+  int base_vertices = 0;
+  std::vector<Triangle> base_faces;
+  std::vector<Vec3> positions;
+
+  /// The finest level as a plain mesh.
+  Mesh mesh() const;
+};
+
+}  // namespace gsp

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "remesh/semiregular.h"
+
+namespace gsp {
+
+/// Writes `*.sr.ply`: a plain PLY (binary little-endian, double) with comments `gsp semiregular 1`, `level L`,
+/// `base_vertices B`, `base_faces F`. Throws Error(CannotWrite).
+void write_semiregular(const std::string& path, const SemiregularMesh& mesh);
+
+/// Reads what `write_semiregular` wrote; checks that the faces are those of the levels that the comments name.
+/// Throws the errors of `read_mesh` and NoSubdivisionConnectivity.
+SemiregularMesh read_semiregular(const std::string& path);
+
+}  // namespace gsp
