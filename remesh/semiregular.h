@@ -18,9 +18,23 @@ struct SubdivisionLevel {
   std::vector<std::array<int, 2>> edges;       ///< end vertices, in the direction of the first face that has it
   std::vector<std::array<int, 3>> face_edges;  ///< #F, edge of corners (0,1), (1,2), (2,0)
   std::vector<std::array<int, 2>> edge_faces;  ///< #E, the one or two faces; second is -1 on a boundary
+
+  int edge_count() const { return static_cast<int>(edges.size()); }
+  int face_count() const { return static_cast<int>(faces.size()); }
 };
 
-/// Levels 0 (base) to `level`. O(total faces).
+/// Deepest level that any part of gsp makes or reads: 4^10 faces for each base face.
+inline constexpr int kMaxSubdivisionLevel = 10;
+
+/// The base level. Throws Error: IndexOutOfRange, DegenerateFace, NonManifoldEdge, InconsistentOrientation, each with the
+/// face. O(F).
+SubdivisionLevel base_level(int base_vertices, const std::vector<Triangle>& base_faces);
+
+/// One quadrisection. O(F), without a search: every finer edge is a half of a coarse edge or lies inside a coarse face.
+SubdivisionLevel subdivide(const SubdivisionLevel& coarse);
+
+/// Levels 0 (base) to `level`. Throws the errors of `base_level`, and BadOption where `level` is not in
+/// 0..kMaxSubdivisionLevel. O(total faces).
 std::vector<SubdivisionLevel> subdivision_levels(int base_vertices, const std::vector<Triangle>& base_faces, int level);
 
 /// A mesh with subdivision connectivity: base faces quadrisected `level` times, positions level by level

@@ -1,0 +1,121 @@
+#include "remesh/semiregular.h"
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+
+#include "mesh/error.h"
+
+namespace gsp {
+
+namespace {
+
+void check_face(int base_vertices, const Triangle& t, int face) {
+  for (int vertex : t)
+    if (vertex < 0 || vertex >= base_vertices)
+      throw Error(Cause::IndexOutOfRange, "a base face names vertex " + std::to_string(vertex), Element::Face, face);
+  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+    throw Error(Cause::DegenerateFace, "a base face names a vertex twice", Element::Face, face);
+}
+
+/// Enters side k of a face as edge `edge`, which is new where it equals the number of edges so far.
+void add_side(SubdivisionLevel& level, int face, int k, int edge) {
+  const int from = level.faces[face][k], to = level.faces[face][(k + 1) % 3];
+  if (edge == level.edge_count()) {
+    level.edges.push_back({from, to});
+    level.edge_faces.push_back({face, -1});
+  } else {
+    level.edge_faces[edge][1] = face;
+  }
+  level.face_edges[face][k] = edge;
+}
+
+}  // namespace
+
+SubdivisionLevel base_level(int base_vertices, const std::vector<Triangle>& base_faces) {
+  SubdivisionLevel level;
+  level.vertex_count = base_vertices;
+  level.faces = base_faces;
+  level.face_edges.resize(base_faces.size());
+  std::unordered_map<std::uint64_t, int> known;
+  known.reserve(2 * base_faces.size());
+  for (int f = 0; f < level.face_count(); ++f) {
+    const Triangle& t = base_faces[f];
+    check_face(base_vertices, t, f);
+    for (int k = 0; k < 3; ++k) {
+      const int from = t[k], to = t[(k + 1) % 3];
+      const std::uint64_t key =
+          (static_cast<std::uint64_t>(std::min(from, to)) << 32) | static_cast<std::uint32_t>(std::max(from, to));
+      const int edge = known.try_emplace(key, level.edge_count()).first->second;
+      if (edge < level.edge_count()) {
+        if (level.edge_faces[edge][1] >= 0)
+          throw Error(Cause::NonManifoldEdge, "a base edge has more than two faces", Element::Face, f);
+        if (level.edges[edge][0] == from)
+          throw Error(Cause::InconsistentOrientation, "two base faces run through an edge the same way", Element::Face, f);
+      }
+      add_side(level, f, k, edge);
+    }
+  }
+  return level;
+}
+
+SubdivisionLevel subdivide(const SubdivisionLevel& coarse) {
+  SubdivisionLevel fine;
+  const int vertices = coarse.vertex_count, edges = coarse.edge_count(), faces = coarse.face_count();
+  fine.vertex_count = vertices + edges;
+  fine.faces.reserve(4 * static_cast<std::size_t>(faces));
+  fine.face_edges.resize(4 * static_cast<std::size_t>(faces));
+  const std::size_t fine_edges = 2 * static_cast<std::size_t>(edges) + 3 * static_cast<std::size_t>(faces);
+  fine.edges.reserve(fine_edges);
+  fine.edge_faces.reserve(fine_edges);
+
+  // Number of the finer edge by what it is: half 2e + (which end of e), or 2E + 3f + (corner it cuts off).
+  std::vector<int> number(fine_edges, -1);
+  const auto side = [&](int face, int k, int identity) {
+    if (number[identity] < 0) number[identity] = fine.edge_count();
+    add_side(fine, face, k, number[identity]);
+  };
+  for (int f = 0; f < faces; ++f) {
+    const Triangle& t = coarse.faces[f];
+    const std::array<int, 3>& e = coarse.face_edges[f];
+    const Triangle mid = {vertices + e[0], vertices + e[1], vertices + e[2]};
+    fine.faces.push_back({t[0], mid[0], mid[2]});
+    fine.faces.push_back({mid[0], t[1], mid[1]});
+    fine.faces.push_back({mid[2], mid[1], t[2]});
+    fine.faces.push_back({mid[0], mid[1], mid[2]});
+    const auto half = [&](int edge, int end) { return 2 * edge + (coarse.edges[edge][0] == end ? 0 : 1); };
+    const auto inner = [&](int corner) { return 2 * edges + 3 * f + corner; };
+    side(4 * f, 0, half(e[0], t[0]));
+    side(4 * f, 1, inner(0));
+    side(4 * f, 2, half(e[2], t[0]));
+    side(4 * f + 1, 0, half(e[0], t[1]));
+    side(4 * f + 1, 1, half(e[1], t[1]));
+    side(4 * f + 1, 2, inner(1));
+    side(4 * f + 2, 0, inner(2));
+    side(4 * f + 2, 1, half(e[1], t[2]));
+    side(4 * f + 2, 2, half(e[2], t[2]));
+    side(4 * f + 3, 0, inner(1));
+    side(4 * f + 3, 1, inner(2));
+    side(4 * f + 3, 2, inner(0));
+  }
+  return fine;
+}
+
+std::vector<SubdivisionLevel> subdivision_levels(int base_vertices, const std::vector<Triangle>& base_faces, int level) {
+  if (level < 0 || level > kMaxSubdivisionLevel)
+    throw Error(Cause::BadOption, "subdivision level " + std::to_string(level) + " is not in 0.." +
+                                      std::to_string(kMaxSubdivisionLevel));
+  std::vector<SubdivisionLevel> levels;
+  levels.reserve(level + 1);
+  levels.push_back(base_level(base_vertices, base_faces));
+  for (int l = 0; l < level; ++l) levels.push_back(subdivide(levels.back()));
+  return levels;
+}
+
+Mesh SemiregularMesh::mesh() const {
+  SubdivisionLevel finest = base_level(base_vertices, base_faces);
+  for (int l = 0; l < level; ++l) finest = subdivide(finest);
+  return {positions, std::move(finest.faces)};
+}
+
+}  // namespace gsp

@@ -1,0 +1,94 @@
+#include "remesh/semiregular_file.h"
+
+#include <cstdint>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "mesh/error.h"
+#include "mesh/io.h"
+
+namespace gsp {
+
+namespace {
+
+constexpr const char* kSignature = "gsp semiregular 1";
+
+struct Counts {
+  std::optional<int> level, base_vertices, base_faces;
+};
+
+/// What the PLY header's comments say; nothing where the signature is missing.
+std::optional<Counts> read_counts(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  Counts counts;
+  bool signed_by_us = false;
+  // A header longer than this is none of ours; without a limit a binary file would be searched to its end for a newline.
+  constexpr int kHeaderLines = 200;
+  std::string line;
+  for (int n = 0; n < kHeaderLines && std::getline(in, line) && line.rfind("end_header", 0) != 0; ++n) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line == std::string("comment ") + kSignature) signed_by_us = true;
+    std::istringstream words(line);
+    std::string comment, key;
+    int value = 0;
+    if (!(words >> comment >> key >> value) || comment != "comment") continue;
+    if (key == "level") counts.level = value;
+    if (key == "base_vertices") counts.base_vertices = value;
+    if (key == "base_faces") counts.base_faces = value;
+  }
+  return signed_by_us ? std::optional<Counts>(counts) : std::nullopt;
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw Error(Cause::NoSubdivisionConnectivity, path + ": " + why);
+}
+
+/// Base face f, found again at the finest level: child k of a face keeps corner k in place k.
+Triangle base_face(const std::vector<Triangle>& faces, int level, std::int64_t f) {
+  Triangle t;
+  for (int k = 0; k < 3; ++k) {
+    std::int64_t child = f;
+    for (int l = 0; l < level; ++l) child = 4 * child + k;
+    t[k] = faces[child][k];
+  }
+  return t;
+}
+
+}  // namespace
+
+void write_semiregular(const std::string& path, const SemiregularMesh& mesh) {
+  write_mesh(path, mesh.mesh(),
+             {kSignature, "level " + std::to_string(mesh.level), "base_vertices " + std::to_string(mesh.base_vertices),
+              "base_faces " + std::to_string(mesh.base_faces.size())});
+}
+
+SemiregularMesh read_semiregular(const std::string& path) {
+  const Mesh plain = read_mesh(path);
+  const std::optional<Counts> counts = read_counts(path);
+  if (!counts || !counts->level || !counts->base_vertices || !counts->base_faces)
+    refuse(path, std::string("no comments '") + kSignature + "', 'level', 'base_vertices' and 'base_faces'");
+  SemiregularMesh mesh;
+  mesh.level = *counts->level;
+  mesh.base_vertices = *counts->base_vertices;
+  if (mesh.level < 0 || mesh.level > kMaxSubdivisionLevel) refuse(path, "level out of range");
+  const std::int64_t base_faces = *counts->base_faces;
+  if (base_faces <= 0 || base_faces << (2 * mesh.level) != plain.face_count())
+    refuse(path, "the number of faces is not base_faces times 4 to the level");
+  if (mesh.base_vertices < 3 || mesh.base_vertices > plain.vertex_count()) refuse(path, "base_vertices out of range");
+  for (std::int64_t f = 0; f < base_faces; ++f) mesh.base_faces.push_back(base_face(plain.faces, mesh.level, f));
+  mesh.positions = plain.positions;
+  SubdivisionLevel finest;
+  try {
+    finest = subdivision_levels(mesh.base_vertices, mesh.base_faces, mesh.level).back();
+  } catch (const Error& error) {
+    refuse(path, error.what());
+  }
+  for (int f = 0; f < plain.face_count(); ++f)
+    if (finest.faces[f] != plain.faces[f])
+      throw Error(Cause::NoSubdivisionConnectivity, path + ": a face is not the one its level has", Element::Face, f);
+  if (finest.vertex_count != plain.vertex_count()) refuse(path, "the number of vertices is not the level's");
+  return mesh;
+}
+
+}  // namespace gsp

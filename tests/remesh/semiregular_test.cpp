@@ -1,0 +1,53 @@
+#include "remesh/semiregular.h"
+
+#include <catch2/catch.hpp>
+#include <functional>
+
+#include "mesh/error.h"
+#include "mesh/shapes.h"
+
+using namespace gsp;
+
+namespace {
+
+Cause cause_of(const std::function<void()>& body) {
+  try {
+    body();
+  } catch (const Error& error) {
+    return error.cause();
+  }
+  return Cause::Internal;
+}
+
+}  // namespace
+
+TEST_CASE("quadrisection keeps the numbering rules at every level") {
+  for (const Mesh& base : {shapes::tetrahedron(), shapes::torus(4, 3), shapes::grid(2, 3)}) {
+    const auto levels = subdivision_levels(base.vertex_count(), base.faces, 3);
+    for (std::size_t l = 0; l + 1 < levels.size(); ++l) {
+      const SubdivisionLevel &coarse = levels[l], &fine = levels[l + 1];
+      REQUIRE(fine.vertex_count == coarse.vertex_count + coarse.edge_count());
+      REQUIRE(fine.face_count() == 4 * coarse.face_count());
+      // The search over face sides, which is how the base level numbers its edges, must give the same numbers.
+      const SubdivisionLevel searched = base_level(fine.vertex_count, fine.faces);
+      CHECK(searched.edges == fine.edges);
+      CHECK(searched.face_edges == fine.face_edges);
+      CHECK(searched.edge_faces == fine.edge_faces);
+      for (int f = 0; f < coarse.face_count(); ++f) {
+        const Triangle& t = coarse.faces[f];
+        for (int k = 0; k < 3; ++k) {
+          CHECK(fine.faces[4 * f + k][k] == t[k]);
+          CHECK(fine.faces[4 * f + 3][k] == coarse.vertex_count + coarse.face_edges[f][k]);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a base that is not an oriented manifold is refused with its face") {
+  CHECK(cause_of([] { base_level(3, {{0, 1, 3}}); }) == Cause::IndexOutOfRange);
+  CHECK(cause_of([] { base_level(3, {{0, 1, 1}}); }) == Cause::DegenerateFace);
+  CHECK(cause_of([] { base_level(4, {{0, 1, 2}, {0, 1, 3}}); }) == Cause::InconsistentOrientation);
+  CHECK(cause_of([] { base_level(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}); }) == Cause::NonManifoldEdge);
+  CHECK(cause_of([] { subdivision_levels(3, {{0, 1, 2}}, 11); }) == Cause::BadOption);
+}
