@@ -10,6 +10,7 @@
 namespace gsp {
 
 /// Exact nearest point on a triangle surface: a bounding volume hierarchy, built once, asked from any thread.
+/// A triangle without area still is a segment or a point that can be the nearest. Throws Error(NoFaces).
 class SurfaceTree {
  public:
   explicit SurfaceTree(const Mesh& mesh);
@@ -18,11 +19,13 @@ class SurfaceTree {
   SurfaceTree& operator=(SurfaceTree&&) noexcept;
 
   /// Squared distance from p to the surface, exact up to rounding. `hint` starts from that face (-1: none) and receives
-  /// the nearest one: neighbouring queries run several times faster with it; the result does not depend on it.
+  /// the nearest one: neighbouring queries run several times faster with it; the distance does not depend on it.
   double squared_distance(const Vec3& p, int& hint) const;
 
- private:
   struct Impl;
+  const Impl& impl() const { return *impl_; }
+
+ private:
   std::unique_ptr<Impl> impl_;
 };
 
@@ -36,6 +39,7 @@ struct OneWayDistance {
   double mean = 0.0;
   double rms = 0.0;
   double hausdorff = 0.0;     ///< largest over the samples: a lower bound of the true one
+  /// Of the RMS, from the squared differences between neighbouring strata; their trend makes it err to the safe side.
   double rms_standard_error = 0.0;
   std::size_t samples = 0;
 };
@@ -52,7 +56,8 @@ struct SurfaceDistance {
   double standard_error_db() const;
 };
 
-/// Distance between surface `a` (the reference) and `b`, both ways (algorithms.md §7).
+/// Distance between surface `a` (the reference) and `b`, both ways (algorithms.md §7): samples are one per stratum of equal
+/// area, weights are equal, so mean and RMS are those over area.
 /// The same bits for any number of threads. Throws Error(NoFaces, BadOption).
 SurfaceDistance surface_distance(const Mesh& a, const Mesh& b, const DistanceOptions& options, Progress& progress);
 

@@ -1,0 +1,94 @@
+#include "metrics/area_sampler.h"
+
+#include <algorithm>
+#include <array>
+
+#include "mesh/error.h"
+#include "mesh/random.h"
+
+namespace gsp {
+
+namespace {
+
+/// An affine image of the unit triangle (0,0), (1,0), (0,1): origin and two edges.
+struct Cell {
+  double s, t;
+  double edge1_s, edge1_t;
+  double edge2_s, edge2_t;
+
+  Cell inside(const Cell& outer) const {
+    return {outer.s + s * outer.edge1_s + t * outer.edge2_s,
+            outer.t + s * outer.edge1_t + t * outer.edge2_t,
+            edge1_s * outer.edge1_s + edge1_t * outer.edge2_s,
+            edge1_s * outer.edge1_t + edge1_t * outer.edge2_t,
+            edge2_s * outer.edge1_s + edge2_t * outer.edge2_s,
+            edge2_s * outer.edge1_t + edge2_t * outer.edge2_t};
+  }
+};
+
+constexpr int kBisections = 8;
+constexpr int kCells = 1 << kBisections;
+
+/// The curve enters a cell at its origin and leaves it at the end of its second edge; the corner between is the end of
+/// the first. Halving the side from entry to exit gives the two cells that follow each other on the curve.
+std::array<Cell, kCells> sierpinski_cells() {
+  constexpr Cell first = {0.0, 0.0, 0.0, 0.5, 1.0, 0.0};
+  constexpr Cell second = {1.0, 0.0, -1.0, 0.5, -1.0, 1.0};
+  std::array<Cell, kCells> cells;
+  for (int index = 0; index < kCells; ++index) {
+    Cell cell = {0.0, 0.0, 1.0, 0.0, 0.0, 1.0};
+    for (int bit = kBisections - 1; bit >= 0; --bit) cell = ((index >> bit) & 1 ? second : first).inside(cell);
+    cells[index] = cell;
+  }
+  return cells;
+}
+
+/// The point of the unit triangle at fraction r of its area along the curve; `random` places it within the last cell.
+std::array<double, 2> triangle_point(double r, std::uint32_t random) {
+  static const std::array<Cell, kCells> cells = sierpinski_cells();
+  const auto index = static_cast<std::uint32_t>(std::clamp(r, 0.0, 1.0 - 0x1.0p-25) * 0x1.0p24);
+  Cell cell = cells[(index >> 8) & 255].inside(cells[index >> 16]);
+  cell = cells[index & 255].inside(cell);
+  double s = ((random >> 16) + 0.5) * 0x1.0p-16, t = ((random & 0xffff) + 0.5) * 0x1.0p-16;
+  if (s + t > 1.0) {
+    s = 1.0 - s;
+    t = 1.0 - t;
+  }
+  return {cell.s + s * cell.edge1_s + t * cell.edge2_s, cell.t + s * cell.edge1_t + t * cell.edge2_t};
+}
+
+}  // namespace
+
+AreaSampler::AreaSampler(const Mesh& mesh, const std::vector<int>& order, std::size_t samples, std::uint64_t seed)
+    : mesh_(mesh), order_(order), cumulative_(order.size() + 1, 0.0), samples_(samples), seed_(seed) {
+  for (std::size_t i = 0; i < order.size(); ++i) cumulative_[i + 1] = cumulative_[i] + face_area(mesh, order[i]);
+  if (!(cumulative_.back() > 0.0)) throw Error(Cause::NoFaces, "a surface without area has no samples");
+}
+
+void AreaSampler::sample(std::size_t begin, std::size_t end, Vec3* out) const {
+  const double stratum = cumulative_.back() / static_cast<double>(samples_);
+  Random random(seed_ + 0xd1b54a32d192ed03ULL * (begin / kBlock + 1));
+  std::size_t place = 0;
+  for (std::size_t k = begin; k < end; ++k) {
+    const std::uint64_t bits = random.next();
+    const double jitter = static_cast<double>(bits >> 32) * 0x1.0p-32;
+    const double target = std::min((static_cast<double>(k) + jitter) * stratum, cumulative_.back());
+    if (k == begin || target >= cumulative_[place + 1]) {
+      // A few steps reach the next face; a search serves the block's start and long runs of faces without area.
+      for (int step = 0; step < 8 && k != begin && place + 1 < order_.size() && target >= cumulative_[place + 1]; ++step)
+        ++place;
+      if (k == begin || target >= cumulative_[place + 1]) {
+        const auto after = std::upper_bound(cumulative_.begin(), cumulative_.end(), target);
+        const auto last = std::lower_bound(cumulative_.begin(), cumulative_.end(), cumulative_.back());
+        place = static_cast<std::size_t>(std::min(after, last) - cumulative_.begin()) - 1;
+      }
+    }
+    const double area = cumulative_[place + 1] - cumulative_[place];
+    const auto [s, t] = triangle_point((target - cumulative_[place]) / area, static_cast<std::uint32_t>(bits));
+    const Triangle& corners = mesh_.faces[order_[place]];
+    const Vec3& a = mesh_.positions[corners[0]];
+    out[k - begin] = a + s * (mesh_.positions[corners[1]] - a) + t * (mesh_.positions[corners[2]] - a);
+  }
+}
+
+}  // namespace gsp

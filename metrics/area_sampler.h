@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace gsp {
+
+/// Area-stratified points on a surface. The faces' areas, laid end to end in a given order, are cut into equal strata;
+/// each stratum holds one point, uniform in it. Inside a face the line of its area is wound into the triangle along the
+/// Sierpinski curve (repeated bisection), which keeps area: so strata are compact even in faces much larger than they
+/// are, and neighbours on the line are neighbours on the surface.
+class AreaSampler {
+ public:
+  /// `order`: #F, the faces in the order in which they are sampled; both are kept by reference. `samples` >= 1.
+  /// Throws Error(NoFaces) where no face has area.
+  AreaSampler(const Mesh& mesh, const std::vector<int>& order, std::size_t samples, std::uint64_t seed);
+
+  /// Points of the strata [begin, end) into out[0..end-begin); `begin` is a multiple of kBlock, since the random numbers
+  /// of each such block are its own. Any thread.
+  void sample(std::size_t begin, std::size_t end, Vec3* out) const;
+
+  static constexpr std::size_t kBlock = 4096;
+
+ private:
+  const Mesh& mesh_;
+  const std::vector<int>& order_;
+  std::vector<double> cumulative_;  ///< #F+1, area before each place of the order
+  std::size_t samples_;
+  std::uint64_t seed_;
+};
+
+}  // namespace gsp

@@ -1,0 +1,264 @@
+#include "metrics/triangle_tree.h"
+
+#include <array>
+#include <cfloat>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "mesh/error.h"
+#include "mesh/parallel.h"
+
+/// Compiles a function with all it calls a second time for AVX2, chosen when the program starts. The bits are the same:
+/// lanes work alone, in the same order of operations, and contraction is off.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__)
+#define GSP_VECTOR_CLONES __attribute__((target_clones("avx2", "default"), flatten))
+#else
+#define GSP_VECTOR_CLONES
+#endif
+
+namespace gsp {
+
+namespace {
+
+using Lanes = float __attribute__((vector_size(16)));
+
+/// Boxes are widened by this much of the unit box, four times what the conversion to float can lose.
+constexpr float kOutward = 0x1.0p-22f;
+/// Queries farther out are moved onto this box around the tree: that only brings them nearer to everything inside.
+constexpr float kFarthest = 1e15f;
+
+struct Entry {
+  std::array<float, 3> centre;
+  int face;
+};
+
+/// Parts [begin, end) of the entries at multiples of `quarter` along the longest axes, each part apart from the others.
+void split_in_four(std::vector<Entry>& entries, std::size_t begin, std::size_t end, std::size_t quarter) {
+  const auto halve = [&](std::size_t from, std::size_t middle, std::size_t to) {
+    if (middle >= to) return;
+    std::array<float, 3> low = entries[from].centre, high = low;
+    for (std::size_t i = from; i < to; ++i)
+      for (int k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], entries[i].centre[k]);
+        high[k] = std::max(high[k], entries[i].centre[k]);
+      }
+    int axis = 0;
+    for (int k = 1; k < 3; ++k)
+      if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
+    std::nth_element(entries.begin() + from, entries.begin() + middle, entries.begin() + to,
+                     [axis](const Entry& a, const Entry& b) {
+                       return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis] : a.face < b.face;
+                     });
+  };
+  const std::size_t middle = begin + 2 * quarter;
+  halve(begin, middle, end);
+  halve(begin, begin + quarter, std::min(middle, end));
+  halve(middle, middle + quarter, end);
+}
+
+/// Sorts [begin, end) down to single entries, for ranges that fit into a core's cache.
+void split_all(std::vector<Entry>& entries, std::size_t begin, std::size_t end, std::size_t quarter) {
+  if (end - begin <= 1) return;
+  split_in_four(entries, begin, end, quarter);
+  if (quarter > 1)
+    for (std::size_t b = begin; b < end; b += quarter) split_all(entries, b, std::min(b + quarter, end), quarter / 4);
+}
+
+}  // namespace
+
+TriangleTree::TriangleTree(const Mesh& mesh) {
+  if (mesh.faces.empty()) throw Error(Cause::NoFaces, "a surface without faces has no distance");
+  Eigen::AlignedBox3d box;
+  for (const Triangle& face : mesh.faces)
+    for (int vertex : face) box.extend(mesh.positions[vertex]);
+  centre_ = box.center();
+  const double extent = 0.5 * box.sizes().maxCoeff();
+  if (extent > 0.0) scale_ = 1.0 / extent;
+  sort_places(mesh);
+  frames_.resize(order_.size());
+  parallel_for(order_.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Triangle& t = mesh.faces[order_[i]];
+      frames_[i] = TriangleFrame(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+    }
+  });
+  build_boxes(mesh);
+}
+
+float TriangleTree::scaled(double value, int axis) const {
+  return static_cast<float>((value - centre_[axis]) * scale_);
+}
+
+void TriangleTree::sort_places(const Mesh& mesh) {
+  const std::size_t count = mesh.faces.size();
+  std::vector<Entry> entries(count);
+  parallel_for(count, 8192, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      entries[f].face = static_cast<int>(f);
+      for (int k = 0; k < 3; ++k) {
+        const Triangle& t = mesh.faces[f];
+        const double a = mesh.positions[t[0]][k], b = mesh.positions[t[1]][k], c = mesh.positions[t[2]][k];
+        entries[f].centre[k] = scaled(0.5 * (std::min({a, b, c}) + std::max({a, b, c})), k);
+      }
+    }
+  });
+  std::size_t quarter = 1;
+  while (4 * quarter < count) quarter *= 4;
+  constexpr std::size_t kWithinCache = 4096;
+  for (; quarter > kWithinCache; quarter /= 4)
+    parallel_for((count + 4 * quarter - 1) / (4 * quarter), 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t r = first; r < last; ++r)
+        split_in_four(entries, r * 4 * quarter, std::min((r + 1) * 4 * quarter, count), quarter);
+    });
+  parallel_for((count + 4 * quarter - 1) / (4 * quarter), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t r = first; r < last; ++r)
+      split_all(entries, r * 4 * quarter, std::min((r + 1) * 4 * quarter, count), quarter);
+  });
+  order_.resize(count);
+  place_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    order_[i] = entries[i].face;
+    place_[order_[i]] = static_cast<int>(i);
+  }
+}
+
+void TriangleTree::build_boxes(const Mesh& mesh) {
+  Node empty;
+  for (int k = 0; k < 3; ++k)
+    for (int c = 0; c < kWidth; ++c) {
+      empty.low[k][c] = FLT_MAX;
+      empty.high[k][c] = -FLT_MAX;
+    }
+  levels_.emplace_back((order_.size() + kWidth - 1) / kWidth, empty);
+  parallel_for(levels_[0].size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin * kWidth; i < std::min(end * kWidth, order_.size()); ++i) {
+      const Triangle& t = mesh.faces[order_[i]];
+      Node& node = levels_[0][i / kWidth];
+      for (int k = 0; k < 3; ++k) {
+        const double a = mesh.positions[t[0]][k], b = mesh.positions[t[1]][k], c = mesh.positions[t[2]][k];
+        node.low[k][i % kWidth] = scaled(std::min({a, b, c}), k) - kOutward;
+        node.high[k][i % kWidth] = scaled(std::max({a, b, c}), k) + kOutward;
+      }
+    }
+  });
+  while (levels_.back().size() > 1) {
+    const std::vector<Node>& below = levels_.back();
+    std::vector<Node> level((below.size() + kWidth - 1) / kWidth, empty);
+    for (std::size_t i = 0; i < below.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        level[i / kWidth].low[k][i % kWidth] = *std::min_element(below[i].low[k], below[i].low[k] + kWidth);
+        level[i / kWidth].high[k][i % kWidth] = *std::max_element(below[i].high[k], below[i].high[k] + kWidth);
+      }
+    levels_.push_back(std::move(level));
+  }
+}
+
+template <int G>
+TriangleTree::QueryBox TriangleTree::query_box(const PointGroup<G>& points) const {
+  const double* coordinates[3] = {points.x, points.y, points.z};
+  QueryBox box;
+  for (int k = 0; k < 3; ++k) {
+    double low = coordinates[k][0], high = low;
+    for (int i = 1; i < G; ++i) {
+      low = std::min(low, coordinates[k][i]);
+      high = std::max(high, coordinates[k][i]);
+    }
+    const float scaled_low = scaled(low, k), scaled_high = scaled(high, k);
+    box.low[k] = std::clamp(scaled_low - kOutward * (1.0f + std::abs(scaled_low)), -kFarthest, kFarthest);
+    box.high[k] = std::clamp(scaled_high + kOutward * (1.0f + std::abs(scaled_high)), -kFarthest, kFarthest);
+  }
+  return box;
+}
+
+template <int G>
+float TriangleTree::bound(const double* squared) const {
+  double largest = squared[0];
+  for (int i = 1; i < G; ++i) largest = std::max(largest, squared[i]);
+  // Widened by more than the rounding of the box distances in float.
+  const double widened = largest * scale_ * scale_ * (1.0 + 0x1.0p-19) + FLT_MIN;
+  return static_cast<float>(std::min(widened, 0x1.0p126));
+}
+
+void TriangleTree::distances(const Node& node, const QueryBox& box, float* squared) {
+  Lanes sum = {0, 0, 0, 0};
+  for (int k = 0; k < 3; ++k) {
+    const Lanes low = *reinterpret_cast<const Lanes*>(node.low[k]), high = *reinterpret_cast<const Lanes*>(node.high[k]);
+    const Lanes below = low - box.high[k], above = box.low[k] - high;
+    Lanes gap = below > above ? below : above;
+    const Lanes zero = {0, 0, 0, 0};
+    gap = gap > zero ? gap : zero;
+    sum += gap * gap;
+  }
+  *reinterpret_cast<Lanes*>(squared) = sum;
+}
+
+template <int G>
+void TriangleTree::search(const PointGroup<G>& points, double* squared, int& hint) const {
+  const QueryBox box = query_box(points);
+  std::fill(squared, squared + G, std::numeric_limits<double>::infinity());
+  nearer<G>(frames_[hint], points, squared);
+  float limit = bound<G>(squared);
+
+  struct Pending {
+    std::uint32_t node;
+    int level;
+    float distance;
+  };
+  // A node leaves at most three siblings behind on each of at most 16 levels.
+  Pending stack[64];
+  int depth = 0;
+  stack[depth++] = {0, static_cast<int>(levels_.size()) - 1, 0.0f};
+  while (depth > 0) {
+    const Pending top = stack[--depth];
+    if (top.distance > limit) continue;
+    alignas(16) float distance[kWidth];
+    distances(levels_[top.level][top.node], box, distance);
+    if (top.level == 0) {
+      for (int c = 0; c < kWidth; ++c) {
+        if (distance[c] > limit) continue;
+        const int triangle = static_cast<int>(kWidth * top.node) + c;
+        const double before = squared[G - 1];
+        nearer<G>(frames_[triangle], points, squared);
+        if (squared[G - 1] < before) hint = triangle;
+        limit = bound<G>(squared);
+      }
+      continue;
+    }
+    // Farthest first onto the stack, so that the nearest child is next.
+    const int first = depth;
+    for (int c = 0; c < kWidth; ++c) {
+      if (distance[c] > limit) continue;
+      int at = depth++;
+      while (at > first && stack[at - 1].distance < distance[c]) {
+        stack[at] = stack[at - 1];
+        --at;
+      }
+      stack[at] = {kWidth * top.node + c, top.level - 1, distance[c]};
+    }
+  }
+}
+
+GSP_VECTOR_CLONES void TriangleTree::nearest(const PointGroup<kGroupSize>& points, double* squared, int& hint) const {
+  search<kGroupSize>(points, squared, hint);
+}
+
+double TriangleTree::nearest(const Vec3& point, int& hint) const {
+  const PointGroup<1> single = {{point.x()}, {point.y()}, {point.z()}};
+  double squared = 0.0;
+  search<1>(single, &squared, hint);
+  return squared;
+}
+
+int TriangleTree::descend(const Vec3& point) const {
+  const QueryBox box = query_box(PointGroup<1>{{point.x()}, {point.y()}, {point.z()}});
+  std::size_t node = 0;
+  for (std::size_t level = levels_.size(); level-- > 0;) {
+    alignas(16) float distance[kWidth];
+    distances(levels_[level][node], box, distance);
+    node = kWidth * node + (std::min_element(distance, distance + kWidth) - distance);
+  }
+  return static_cast<int>(node);
+}
+
+}  // namespace gsp

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "metrics/point_triangle.h"
+
+namespace gsp {
+
+/// Points that `TriangleTree::nearest` takes at once. Sixteen neighbouring samples share one walk through the tree.
+inline constexpr int kGroupSize = 8;
+
+/// Bounding volume hierarchy over the triangles of a mesh: a complete tree of four children a node over triangles sorted by
+/// median splits, so that positions stand for pointers. Boxes are kept in float, in coordinates scaled to [-1, 1] and
+/// rounded outward, so a box never hides a nearer triangle; triangles are kept in double.
+/// About 140 bytes a triangle. O(F log F) to build, on all threads.
+class TriangleTree {
+ public:
+  /// Throws Error(NoFaces).
+  explicit TriangleTree(const Mesh& mesh);
+
+  /// #F, the faces in the tree's order, which keeps neighbours in space together.
+  const std::vector<int>& order() const { return order_; }
+  /// Place of a face in that order.
+  int place(int face) const { return place_[face]; }
+
+  /// squared[i] = squared distance of point i to the surface. `hint` is a place in the order to start from (any valid one
+  /// gives the same distances) and receives the nearest one of the last point.
+  void nearest(const PointGroup<kGroupSize>& points, double* squared, int& hint) const;
+  double nearest(const Vec3& point, int& hint) const;
+
+  /// A place near the point, for a first hint. O(log F).
+  int descend(const Vec3& point) const;
+
+ private:
+  static constexpr int kWidth = 4;
+  /// Boxes of the four children, coordinate by coordinate; children that do not exist are infinitely far.
+  struct alignas(16) Node {
+    float low[3][kWidth], high[3][kWidth];
+  };
+  struct QueryBox {
+    float low[3], high[3];
+  };
+
+  void sort_places(const Mesh& mesh);
+  void build_boxes(const Mesh& mesh);
+  float scaled(double value, int axis) const;
+  template <int G>
+  QueryBox query_box(const PointGroup<G>& points) const;
+  template <int G>
+  float bound(const double* squared) const;
+  static void distances(const Node& node, const QueryBox& box, float* squared);
+  template <int G>
+  void search(const PointGroup<G>& points, double* squared, int& hint) const;
+
+  std::vector<int> order_, place_;
+  std::vector<TriangleFrame> frames_;      ///< in the tree's order
+  std::vector<std::vector<Node>> levels_;  ///< levels_[0] holds the triangles' boxes; the last has one node
+  Vec3 centre_ = Vec3::Zero();
+  double scale_ = 1.0;
+};
+
+}  // namespace gsp

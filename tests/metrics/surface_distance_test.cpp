@@ -1,0 +1,187 @@
+#include "metrics/surface_distance.h"
+
+#include <catch2/catch.hpp>
+
+#include <Eigen/Geometry>
+
+#include "mesh/parallel.h"
+#include "mesh/shapes.h"
+#include "tests/metrics/brute_force.h"
+
+using namespace gsp;
+
+namespace {
+SurfaceDistance measure(const Mesh& a, const Mesh& b, std::size_t samples = 100000, std::uint64_t seed = 1) {
+  Progress silent;
+  return surface_distance(a, b, {samples, seed}, silent);
+}
+
+Mesh moved(Mesh mesh, const Eigen::Affine3d& motion) {
+  for (Vec3& p : mesh.positions) p = motion * p;
+  return mesh;
+}
+
+bool same_bits(const OneWayDistance& a, const OneWayDistance& b) {
+  return a.mean == b.mean && a.rms == b.rms && a.hausdorff == b.hausdorff && a.rms_standard_error == b.rms_standard_error;
+}
+}  // namespace
+
+TEST_CASE("the tree finds the nearest point of a soup, from any hint, near and far") {
+  for (int count : {1, 3, 4, 5, 17, 500}) {
+    const Mesh soup = random_soup(count, count);
+    const SurfaceTree tree(soup);
+    Random random(11);
+    int running = -1;
+    for (int i = 0; i < 400; ++i) {
+      const Vec3 p = (i % 4 == 0 ? 1000.0 : 1.5) * random_point(random);
+      const double expected = brute_force_distance(p, soup);
+      int cold = -1, far = static_cast<int>(random.next() % count);
+      const double distance = std::sqrt(tree.squared_distance(p, cold));
+      CHECK(distance == Approx(expected).epsilon(1e-12));
+      CHECK(tree.squared_distance(p, far) == tree.squared_distance(p, running));
+      const Triangle& t = soup.faces[far];
+      CHECK(brute_force_distance(p, soup.positions[t[0]], soup.positions[t[1]], soup.positions[t[2]]) ==
+            Approx(expected).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("a small surface far from the origin and points at enormous distances are still exact") {
+  Mesh sphere = shapes::sphere(2, 1e-3);
+  const Vec3 offset(1e5, -2e5, 3e5);
+  for (Vec3& p : sphere.positions) p += offset;
+  const SurfaceTree tree(sphere);
+  Random random(2);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 p = offset + 2e-3 * random_point(random);
+    int hint = -1;
+    CHECK(std::sqrt(tree.squared_distance(p, hint)) == Approx(brute_force_distance(p, sphere)).margin(1e-9));
+  }
+  for (double far : {1e10, 1e20, 1e100}) {
+    int hint = -1;
+    CHECK(std::sqrt(tree.squared_distance(Vec3(far, 0, 0), hint)) == Approx(far).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("offset planes are their offset apart") {
+  for (double height : {1e-6, 0.25, 3.0}) {
+    const SurfaceDistance d = measure(shapes::grid(8, 8, 0.0), shapes::grid(5, 8, height), 20000);
+    CHECK(d.backward.rms == Approx(height).epsilon(1e-12));
+    CHECK(d.backward.mean == Approx(height).epsilon(1e-12));
+    CHECK(d.backward.hausdorff == Approx(height).epsilon(1e-12));
+    CHECK(d.backward.rms_standard_error < 1e-12 * height);
+  }
+}
+
+TEST_CASE("a plane beside a shorter one: mean, RMS and maximum by integration") {
+  // Of [0,8]x[0,1] against [0,4]x[0,1], half lies over it; over the rest the distance grows from 0 to 4.
+  const SurfaceDistance d = measure(shapes::grid(8, 1), shapes::grid(4, 1), 200000);
+  CHECK(d.forward.mean == Approx(1.0).epsilon(1e-5));
+  CHECK(d.forward.rms == Approx(std::sqrt(8.0 / 3.0)).epsilon(1e-5));
+  CHECK(d.forward.hausdorff == Approx(4.0).epsilon(1e-3));
+  CHECK(d.backward.rms < 1e-12);
+  CHECK(d.rms() == d.forward.rms);
+  CHECK(d.diagonal == Approx(std::sqrt(65.0)));
+  CHECK(d.psnr_db() == Approx(20.0 * std::log10(std::sqrt(65.0) / std::sqrt(8.0 / 3.0))).epsilon(1e-5));
+}
+
+TEST_CASE("concentric spheres") {
+  const SurfaceDistance d = measure(shapes::sphere(5, 1.0), shapes::sphere(5, 1.25), 50000);
+  // The polyhedra are similar, so the distance lies between those of the inscribed and circumscribed spheres.
+  CHECK(d.forward.rms == Approx(0.25).epsilon(2e-3));
+  CHECK(d.backward.rms == Approx(0.25).epsilon(2e-3));
+  CHECK(d.hausdorff() <= 0.25 + 1e-12);
+  CHECK(d.forward.rms_standard_error < 1e-4);
+}
+
+TEST_CASE("equal surfaces are at no distance") {
+  const Mesh torus = shapes::torus(40, 20);
+  const SurfaceDistance d = measure(torus, torus, 20000);
+  CHECK(d.rms() < 1e-15 * d.diagonal);
+  CHECK(d.psnr_db() > 290.0);
+}
+
+TEST_CASE("swapping the surfaces swaps the directions, bit for bit") {
+  const Mesh a = shapes::torus(30, 12), b = shapes::torus(25, 14);
+  const SurfaceDistance ab = measure(a, b, 30000), ba = measure(b, a, 30000);
+  CHECK(same_bits(ab.forward, ba.backward));
+  CHECK(same_bits(ab.backward, ba.forward));
+}
+
+TEST_CASE("rigid motion and scale leave the relative distance as it is, within its standard error") {
+  const Mesh a = shapes::sphere(3), b = shapes::torus(30, 12, 0.8, 0.3);
+  const SurfaceDistance plain = measure(a, b);
+  Eigen::Affine3d motion = Eigen::Affine3d::Identity();
+  motion.translate(Vec3(3, -40, 7)).rotate(Eigen::AngleAxisd(1.0, Vec3(1, 2, 3).normalized())).scale(17.0);
+  const SurfaceDistance other = measure(moved(a, motion), moved(b, motion));
+  CHECK(std::abs(other.forward.rms / 17.0 - plain.forward.rms) < 6.0 * plain.forward.rms_standard_error);
+  CHECK(std::abs(other.backward.rms / 17.0 - plain.backward.rms) < 6.0 * plain.backward.rms_standard_error);
+}
+
+TEST_CASE("the standard error covers what other seeds give") {
+  const Mesh a = shapes::sphere(3), b = shapes::torus(30, 12, 0.8, 0.3);
+  double sum = 0.0, squares = 0.0, error = 0.0;
+  const int seeds = 40;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const OneWayDistance d = measure(a, b, 3000, seed).forward;
+    sum += d.rms;
+    squares += d.rms * d.rms;
+    error += d.rms_standard_error / seeds;
+  }
+  const double deviation = std::sqrt(squares / seeds - sum / seeds * (sum / seeds));
+  // Pairs of strata overestimate the error, since the distance also changes from one to the next; but not grossly.
+  CHECK(deviation < 1.3 * error);
+  CHECK(deviation > 0.2 * error);
+}
+
+TEST_CASE("isolated vertices and degenerate faces change nothing") {
+  const Mesh a = shapes::sphere(2), b = shapes::torus(12, 8);
+  Mesh dirty = a;
+  dirty.positions.push_back(Vec3(100, 100, 100));
+  const int from = a.faces[9][0], to = a.faces[9][1];
+  dirty.faces.push_back({from, from, to});
+  dirty.faces.push_back({7, 7, 7});
+  const SurfaceDistance clean = measure(a, b, 50000), d = measure(dirty, b, 50000);
+  CHECK(d.diagonal == clean.diagonal);
+  CHECK(d.forward.rms == Approx(clean.forward.rms).epsilon(1e-3));
+  CHECK(d.backward.rms == Approx(clean.backward.rms).epsilon(1e-3));
+}
+
+TEST_CASE("one and two threads give the same bits") {
+  const Mesh a = shapes::torus(80, 40), b = shapes::torus(60, 30);
+  set_thread_count(1);
+  const SurfaceDistance one = measure(a, b, 50001);
+  set_thread_count(2);
+  const SurfaceDistance two = measure(a, b, 50001);
+  set_thread_count(0);
+  CHECK(same_bits(one.forward, two.forward));
+  CHECK(same_bits(one.backward, two.backward));
+}
+
+TEST_CASE("a tree at hand gives the same as building it") {
+  const Mesh a = shapes::sphere(2), b = shapes::torus(12, 8);
+  Progress silent;
+  const SurfaceTree tree(a);
+  CHECK(same_bits(surface_distance(a, tree, b, {5000, 3}, silent).backward, measure(a, b, 5000, 3).backward));
+}
+
+TEST_CASE("refusals have a cause") {
+  const Mesh sphere = shapes::sphere(1);
+  Mesh empty, line = sphere;
+  empty.positions.push_back(Vec3::Zero());
+  line.faces = {{0, 1, 1}};
+  const auto cause = [](const auto& call) {
+    try {
+      call();
+    } catch (const Error& e) {
+      return e.cause();
+    }
+    return Cause::Internal;
+  };
+  CHECK(cause([&] { measure(sphere, empty); }) == Cause::NoFaces);
+  CHECK(cause([&] { measure(empty, sphere); }) == Cause::NoFaces);
+  CHECK(cause([&] { measure(line, sphere); }) == Cause::NoFaces);
+  CHECK(cause([&] { measure(sphere, sphere, 0); }) == Cause::BadOption);
+  Progress cancelling([](const std::string&, double) { return false; });
+  CHECK(cause([&] { surface_distance(sphere, sphere, {1000, 1}, cancelling); }) == Cause::Cancelled);
+}
