@@ -56,4 +56,11 @@ Error::Error(Cause cause, const std::string& sentence, Element element, long lon
       element_(element),
       index_(index) {}
 
+Error Error::within(const std::string& where) const {
+  Error error(cause_, where + ": " + what());
+  error.element_ = element_;
+  error.index_ = index_;
+  return error;
+}
+
 }  // namespace gsp

@@ -58,6 +58,9 @@ class Error : public std::runtime_error {
   Element element() const { return element_; }
   std::optional<long long> index() const { return index_; }
 
+  /// The same error with the name of the file or cell it happened in put before the sentence.
+  Error within(const std::string& where) const;
+
  private:
   Cause cause_;
   Element element_ = Element::None;

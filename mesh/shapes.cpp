@@ -27,8 +27,8 @@ std::vector<int> edge_numbers(const Halfedges& he, int& edge_count) {
   return number;
 }
 
-/// One step of umbrella smoothing by `factor`, all vertices at once. For closed meshes, where every neighbour is the end
-/// of exactly one outgoing half-edge.
+/// One step of umbrella smoothing by `factor`, all vertices at once. For closed meshes, where every neighbour is the
+/// end of exactly one outgoing half-edge.
 void smooth(Mesh& mesh, double factor) {
   std::vector<Vec3> sum(mesh.positions.size(), Vec3::Zero());
   std::vector<int> valence(mesh.positions.size(), 0);
@@ -85,11 +85,21 @@ Mesh octahedron() {
 
 Mesh icosahedron() {
   const double g = std::numbers::phi;
-  Mesh mesh{{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-             {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}},
-            {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+  Mesh mesh{{{-1, g, 0},
+             {1, g, 0},
+             {-1, -g, 0},
+             {1, -g, 0},
+             {0, -1, g},
+             {0, 1, g},
+             {0, -1, -g},
+             {0, 1, -g},
+             {g, 0, -1},
+             {g, 0, 1},
+             {-g, 0, -1},
+             {-g, 0, 1}},
+            {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
              {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-             {3, 8, 9},  {4, 9, 5},  {2, 4, 11},  {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
+             {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
   project_to_sphere(mesh, 1.0);
   return mesh;
 }
@@ -201,8 +211,7 @@ Mesh quadrisect(const Mesh& mesh) {
   fine.positions = mesh.positions;
   fine.positions.resize(mesh.positions.size() + edge_count);
   for (int h = 0; h < static_cast<int>(number.size()); ++h)
-    fine.positions[mesh.positions.size() + number[h]] =
-        0.5 * (mesh.positions[he.from(h)] + mesh.positions[he.to(h)]);
+    fine.positions[mesh.positions.size() + number[h]] = 0.5 * (mesh.positions[he.from(h)] + mesh.positions[he.to(h)]);
   fine.faces.reserve(4 * mesh.faces.size());
   for (int f = 0; f < mesh.face_count(); ++f) {
     const auto [a, b, c] = mesh.faces[f];

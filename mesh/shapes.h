@@ -16,9 +16,9 @@ Mesh sphere(int level, double radius = 1.0);
 /// Torus of revolution about the z axis, m x n quads (m, n >= 3) split along one diagonal; major and minor radius.
 /// Vertex (i, j), i steps around the axis and j around the tube, is at index j*m + i.
 Mesh torus(int m, int n, double major = 1.0, double minor = 0.4);
-/// A flat-foldable torus cut from a hexagonal lattice: m x n unit rhombi (m, n >= 3, two equilateral triangles each) with
-/// opposite sides joined, vertex (i, j), which is i + jω on the lattice, at index j*m + i. Positions lie on a torus of
-/// revolution, but every vertex has valence 6.
+/// A flat-foldable torus cut from a hexagonal lattice: m x n unit rhombi (m, n >= 3, two equilateral triangles each)
+/// with opposite sides joined, vertex (i, j), which is i + jω on the lattice, at index j*m + i. Positions lie on a
+/// torus of revolution, but every vertex has valence 6.
 Mesh lattice_torus(int m, int n);
 /// Flat m x n grid (m, n >= 1) of unit squares split along one diagonal, in the plane z = height; vertex (i, j) is at
 /// index j*(m+1) + i.
@@ -27,13 +27,13 @@ Mesh grid(int m, int n, double height = 0.0);
 /// times, flattened into the plane by stretching each sector's angle to 2π / sectors. The corner between sectors s-1
 /// and s is at angle 2πs / sectors.
 Mesh sector_disc(int sectors, int level);
-/// A closed surface of the given genus >= 0: a row of `genus` square holes through a slab, quadrisected `level` times and
-/// smoothed a little so that it is not flat.
+/// A closed surface of the given genus >= 0: a row of `genus` square holes through a slab, quadrisected `level` times
+/// and smoothed a little so that it is not flat.
 Mesh genus_slab(int genus, int level);
 /// Two copies of a mesh side by side, as one mesh of twice the components.
 Mesh twice(const Mesh& mesh, const Vec3& offset);
-/// Every face of a manifold mesh split into four at its edge midpoints; old vertices first, then one per edge in order of
-/// first appearance over the faces. Faces are numbered as `SubdivisionLevel` has it. O(F log F).
+/// Every face of a manifold mesh split into four at its edge midpoints; old vertices first, then one per edge in order
+/// of first appearance over the faces. Faces are numbered as `SubdivisionLevel` has it. O(F log F).
 Mesh quadrisect(const Mesh& mesh);
 
 }  // namespace gsp::shapes

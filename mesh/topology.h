@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,12 +16,15 @@ struct ComponentReport {
   int edges = 0;
   int faces = 0;
   int boundary_loops = 0;
+  bool manifold = true;    ///< every edge has at most two faces, every vertex one fan of this component's faces
+  bool orientable = true;  ///< some choice of sides is consistent, even if the file's is not; false where not manifold
   /// (2 - Euler characteristic - boundary loops) / 2; empty where the component is not an orientable manifold.
   std::optional<int> genus;
   int first_face = 0;
 };
 
-/// What a surface is and why it cannot be used. All indices are those of the mesh. O(V + F).
+/// What a surface is and why it cannot be used. All indices are those of the mesh, all lists are ascending.
+/// Faces that name a vertex twice count for nothing but their own list. Loops of non-manifold components are a guess.
 struct TopologyReport {
   int vertices = 0;
   int faces = 0;
@@ -28,13 +32,13 @@ struct TopologyReport {
   int boundary_loops = 0;
   std::vector<int> isolated_vertices;
   std::vector<int> non_finite_vertices;
-  std::vector<std::array<int, 2>> non_manifold_edges;      ///< vertex pairs of more than two faces
-  std::vector<int> non_manifold_vertices;                  ///< faces around it form more than one fan
-  std::vector<std::array<int, 2>> misoriented_edges;       ///< both faces run through it the same way
-  std::vector<int> repeated_index_faces;                   ///< a face that names a vertex twice
-  std::vector<int> duplicate_faces;                        ///< all but the first face on the same three vertices
-  std::vector<int> zero_area_faces;                        ///< collinear or coincident corners; usable
-  int duplicate_positions = 0;                             ///< vertices at the exact position of an earlier one
+  std::vector<std::array<int, 2>> non_manifold_edges;  ///< vertex pairs of more than two faces
+  std::vector<int> non_manifold_vertices;              ///< faces around it form more than one fan
+  std::vector<std::array<int, 2>> misoriented_edges;   ///< both faces run through it the same way
+  std::vector<int> repeated_index_faces;               ///< a face that names a vertex twice
+  std::vector<int> duplicate_faces;                    ///< all but the first face on the same three vertices
+  std::vector<int> zero_area_faces;                    ///< collinear or coincident corners; usable
+  int duplicate_positions = 0;                         ///< vertices at the exact position of an earlier one
 
   /// True where parameterize accepts it.
   bool usable() const { return !refusal.has_value(); }
@@ -42,9 +46,19 @@ struct TopologyReport {
   std::optional<Error> refusal;
 };
 
+/// O(V + F log F).
 TopologyReport topology_report(const Mesh& mesh);
 
 /// Throws the report's refusal, if any.
 void require_parameterizable(const Mesh& mesh);
+
+/// The least that measuring and coding need: throws NoFaces for a mesh without faces, NonFinite for a coordinate that
+/// is not finite or over 1e75, whose fourth power (in squared areas) would not be. O(V).
+void require_finite_surface(const Mesh& mesh);
+
+/// Turns faces so that neighbours agree, in each component the fewer (the ones that disagree with the first face, if as
+/// many). Returns how many were turned. Edges of more than two faces bind nothing.
+/// Throws InconsistentOrientation with a face of a one-sided component. O(V + F log F).
+int orient_consistently(Mesh& mesh);
 
 }  // namespace gsp

@@ -1,7 +1,7 @@
 #include "mesh/shapes.h"
 
-#include <catch2/catch.hpp>
 #include <Eigen/Geometry>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <set>

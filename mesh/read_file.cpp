@@ -1,0 +1,31 @@
+#include "mesh/read_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "mesh/error.h"
+
+namespace gsp {
+
+std::string read_file(const std::string& path) {
+  const auto fail = [&](const std::string& reason) -> std::string {
+    throw Error(Cause::CannotOpen, "cannot open " + path + ": " + reason);
+  };
+  std::error_code code;
+  const auto status = std::filesystem::status(path, code);
+  if (code) return fail(code.message());
+  // A device or pipe may never end.
+  if (status.type() != std::filesystem::file_type::regular) return fail("not a regular file");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return fail(std::strerror(errno));
+  const auto size = std::filesystem::file_size(path, code);
+  if (code) return fail(code.message());
+  std::string bytes(size, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(size));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
+}  // namespace gsp

@@ -1,0 +1,260 @@
+#include "mesh/topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "mesh/disjoint_sets.h"
+#include "mesh/edge_groups.h"
+#include "mesh/weld.h"
+
+namespace gsp {
+
+namespace {
+
+constexpr double kLargestCoordinate = 1e75;
+
+bool is_finite(const Vec3& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() <= kLargestCoordinate; }
+
+int next_corner(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
+
+int vertex_at(const Mesh& mesh, int corner) { return mesh.faces[corner / 3][corner % 3]; }
+
+/// Builds a report in one pass over the edges and one over the fans of corners.
+class Analysis {
+ public:
+  explicit Analysis(const Mesh& mesh)
+      : mesh_(mesh), edges_(mesh), faces_(mesh.faces.size()), fans_(3 * mesh.faces.size()) {}
+
+  TopologyReport run() {
+    report_.vertices = mesh_.vertex_count();
+    report_.faces = mesh_.face_count();
+    check_vertices();
+    check_faces();
+    for (int e = 0; e < edges_.size(); ++e) visit_edge(e);
+    std::sort(report_.duplicate_faces.begin(), report_.duplicate_faces.end());
+    number_components();
+    count_edges();
+    count_fans();
+    count_loops();
+    for (ComponentReport& c : report_.components) {
+      c.orientable = c.orientable && c.manifold;
+      if (c.orientable) c.genus = (2 - (c.vertices - c.edges + c.faces) - c.boundary_loops) / 2;
+    }
+    return std::move(report_);
+  }
+
+ private:
+  void check_vertices() {
+    std::vector<char> used(mesh_.positions.size(), 0);
+    for (const Triangle& t : mesh_.faces)
+      for (int v : t) used[v] = 1;
+    const std::vector<int> first = first_at_same_position(mesh_.positions);
+    for (int v = 0; v < mesh_.vertex_count(); ++v) {
+      if (!used[v]) report_.isolated_vertices.push_back(v);
+      if (!is_finite(mesh_.positions[v])) report_.non_finite_vertices.push_back(v);
+      if (first[v] != v) ++report_.duplicate_positions;
+    }
+  }
+
+  void check_faces() {
+    for (int f = 0; f < mesh_.face_count(); ++f) {
+      if (names_vertex_twice(mesh_.faces[f]))
+        report_.repeated_index_faces.push_back(f);
+      else if (face_area(mesh_, f) == 0.0)
+        report_.zero_area_faces.push_back(f);
+    }
+  }
+
+  std::array<int, 2> ends(int h) const {
+    const int a = vertex_at(mesh_, h), b = vertex_at(mesh_, next_corner(h));
+    return {std::min(a, b), std::max(a, b)};
+  }
+
+  void visit_edge(int e) {
+    const std::span<const int> halves = edges_[e];
+    const int first = halves[0];
+    const auto from = [&](int h) { return vertex_at(mesh_, h); };
+    if (halves.size() == 1) boundary_.push_back(first);
+    if (halves.size() == 2 && from(halves[0]) == from(halves[1])) report_.misoriented_edges.push_back(ends(first));
+    if (halves.size() > 2) {
+      report_.non_manifold_edges.push_back(ends(first));
+      complex_.push_back(first);
+    }
+    for (int h : halves.subspan(1)) {
+      const bool same_way = from(h) == from(first);
+      // Around an edge of more than two faces no choice of sides is consistent, so it binds none.
+      if (!faces_.unite(first / 3, h / 3, halves.size() == 2 && same_way) && halves.size() == 2)
+        one_sided_.push_back(first / 3);
+      fans_.unite(first, same_way ? h : next_corner(h));
+      fans_.unite(next_corner(first), same_way ? next_corner(h) : h);
+    }
+    find_duplicates(halves);
+  }
+
+  /// A face's duplicates share all its edges; looking only at the edge opposite its largest vertex finds each once.
+  void find_duplicates(std::span<const int> halves) {
+    if (halves.size() < 2) return;
+    std::vector<std::pair<int, int>> candidates;
+    for (int h : halves) {
+      const int opposite = vertex_at(mesh_, next_corner(next_corner(h)));
+      if (opposite > ends(h)[1]) candidates.emplace_back(opposite, h / 3);
+    }
+    std::sort(candidates.begin(), candidates.end());
+    for (std::size_t i = 1; i < candidates.size(); ++i)
+      if (candidates[i].first == candidates[i - 1].first) report_.duplicate_faces.push_back(candidates[i].second);
+  }
+
+  ComponentReport& component(int face) { return report_.components[component_[faces_.root(face)]]; }
+
+  void number_components() {
+    component_.assign(mesh_.faces.size(), -1);
+    for (int f = 0; f < mesh_.face_count(); ++f) {
+      if (names_vertex_twice(mesh_.faces[f])) continue;
+      if (faces_.root(f) == f) {  // a root is its set's smallest member
+        component_[f] = static_cast<int>(report_.components.size());
+        report_.components.emplace_back().first_face = f;
+      }
+      ++component(f).faces;
+    }
+    for (int f : one_sided_) component(f).orientable = false;
+    for (int h : complex_) component(h / 3).manifold = false;
+  }
+
+  void count_edges() {
+    for (int e = 0; e < edges_.size(); ++e) ++component(edges_[e][0] / 3).edges;
+  }
+
+  /// A vertex counts once in every component that has a fan around it.
+  void count_fans() {
+    std::vector<int> first_fan(mesh_.positions.size(), -1);
+    std::map<int, std::vector<int>> more_fans;
+    for (int f = 0; f < mesh_.face_count(); ++f) {
+      if (names_vertex_twice(mesh_.faces[f])) continue;
+      for (int corner = 3 * f; corner < 3 * f + 3; ++corner) {
+        if (fans_.root(corner) != corner) continue;
+        int& first = first_fan[vertex_at(mesh_, corner)];
+        if (first < 0) {
+          first = corner;
+          ++component(f).vertices;
+        } else {
+          more_fans[vertex_at(mesh_, corner)].push_back(corner);
+        }
+      }
+    }
+    for (const auto& [vertex, fans] : more_fans) {
+      report_.non_manifold_vertices.push_back(vertex);
+      std::map<ComponentReport*, int> here = {{&component(first_fan[vertex] / 3), 1}};
+      for (int corner : fans) {
+        ComponentReport& c = component(corner / 3);
+        if (++here[&c] == 1)
+          ++c.vertices;
+        else
+          c.manifold = false;
+      }
+    }
+  }
+
+  void count_loops() {
+    if (boundary_.empty()) return;
+    DisjointSets loops(3 * mesh_.faces.size());
+    for (int h : boundary_) loops.unite(fans_.root(h), fans_.root(next_corner(h)));
+    // Every boundary fan is the start or the end of a boundary half-edge, and a root is the smallest of its loop's
+    // fans.
+    std::vector<int> roots;
+    for (int h : boundary_) roots.push_back(loops.root(fans_.root(h)));
+    std::sort(roots.begin(), roots.end());
+    roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
+    for (int root : roots) ++component(root / 3).boundary_loops;
+    report_.boundary_loops = static_cast<int>(roots.size());
+  }
+
+  const Mesh& mesh_;
+  EdgeGroups edges_;
+  DisjointSets faces_;          ///< components; signs are the sides
+  DisjointSets fans_;           ///< corners, joined where their faces share an edge at the same vertex
+  std::vector<int> boundary_;   ///< half-edges without a partner
+  std::vector<int> complex_;    ///< a half-edge of each edge with more than two faces
+  std::vector<int> one_sided_;  ///< a face of each contradiction between sides
+  std::vector<int> component_;  ///< #F, at roots: number of the component
+  TopologyReport report_;
+};
+
+std::string edge_name(const std::array<int, 2>& edge) {
+  return "the edge of vertices " + std::to_string(edge[0]) + " and " + std::to_string(edge[1]);
+}
+
+std::optional<Error> refusal_of(const TopologyReport& r) {
+  if (r.faces == 0) return Error(Cause::NoFaces, "there is no face: a point cloud, a wire frame or an empty file");
+  if (!r.non_finite_vertices.empty())
+    return Error(Cause::NonFinite, "a coordinate is not a finite number, or too large to compute areas with",
+                 Element::Vertex, r.non_finite_vertices[0]);
+  if (!r.repeated_index_faces.empty())
+    return Error(Cause::DegenerateFace, "a face names the same vertex twice", Element::Face, r.repeated_index_faces[0]);
+  if (!r.duplicate_faces.empty())
+    return Error(Cause::DuplicateFace, "a face has the same three vertices as an earlier one", Element::Face,
+                 r.duplicate_faces[0]);
+  if (!r.non_manifold_edges.empty())
+    return Error(Cause::NonManifoldEdge, edge_name(r.non_manifold_edges[0]) + " has more than two faces",
+                 Element::Vertex, r.non_manifold_edges[0][0]);
+  if (!r.non_manifold_vertices.empty())
+    return Error(Cause::NonManifoldVertex, "the faces around a vertex form more than one fan", Element::Vertex,
+                 r.non_manifold_vertices[0]);
+  for (const ComponentReport& c : r.components)
+    if (!c.orientable)
+      return Error(Cause::InconsistentOrientation, "the component has one side only, like a Moebius strip",
+                   Element::Face, c.first_face);
+  if (!r.misoriented_edges.empty())
+    return Error(Cause::InconsistentOrientation,
+                 "both faces run the same way through " + edge_name(r.misoriented_edges[0]), Element::Vertex,
+                 r.misoriented_edges[0][0]);
+  return std::nullopt;
+}
+
+}  // namespace
+
+TopologyReport topology_report(const Mesh& mesh) {
+  TopologyReport report = Analysis(mesh).run();
+  report.refusal = refusal_of(report);
+  return report;
+}
+
+void require_parameterizable(const Mesh& mesh) {
+  const TopologyReport report = topology_report(mesh);
+  if (report.refusal) throw *report.refusal;
+}
+
+void require_finite_surface(const Mesh& mesh) {
+  if (mesh.faces.empty()) throw Error(Cause::NoFaces, "there is no face: a point cloud, a wire frame or an empty file");
+  for (int v = 0; v < mesh.vertex_count(); ++v)
+    if (!is_finite(mesh.positions[v]))
+      throw Error(Cause::NonFinite, "a coordinate is not a finite number, or too large to compute areas with",
+                  Element::Vertex, v);
+}
+
+int orient_consistently(Mesh& mesh) {
+  const EdgeGroups edges(mesh);
+  DisjointSets sides(mesh.faces.size());
+  for (int e = 0; e < edges.size(); ++e) {
+    const std::span<const int> halves = edges[e];
+    if (halves.size() != 2) continue;
+    const bool same_way = vertex_at(mesh, halves[0]) == vertex_at(mesh, halves[1]);
+    if (!sides.unite(halves[0] / 3, halves[1] / 3, same_way))
+      throw Error(Cause::InconsistentOrientation, "the component has one side only, like a Moebius strip",
+                  Element::Face, halves[0] / 3);
+  }
+  std::vector<int> surplus(mesh.faces.size(), 0);  // at roots: faces on the root's side minus the others
+  for (int f = 0; f < mesh.face_count(); ++f) surplus[sides.root(f)] += sides.odd(f) ? -1 : 1;
+  int turned = 0;
+  for (int f = 0; f < mesh.face_count(); ++f) {
+    const bool root_side_stays = surplus[sides.root(f)] >= 0;
+    if (sides.odd(f) != root_side_stays) continue;
+    std::swap(mesh.faces[f][1], mesh.faces[f][2]);
+    ++turned;
+  }
+  return turned;
+}
+
+}  // namespace gsp
