@@ -6,7 +6,7 @@
 namespace gsp {
 
 Halfedges::Halfedges(const Mesh& mesh) : twin(3 * mesh.faces.size(), -1), outgoing(mesh.positions.size(), -1) {
-  faces = &mesh.faces;
+  faces = mesh.faces.data();
   // Half-edges grouped by their smaller end vertex: a counting sort that needs no hash and no comparison over all edges.
   const int count = static_cast<int>(twin.size());
   std::vector<int> start(mesh.positions.size() + 1, 0);

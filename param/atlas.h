@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "param/base_complex.h"
+#include "param/lattice.h"
+#include "param/parameterization.h"
+#include "param/surface.h"
+
+namespace gsp {
+
+/// The base faces around one base vertex, counter-clockwise, and how each lies in the plane developed about it.
+struct BaseFan {
+  struct Sector {
+    int face;
+    int corner;  ///< index of the base vertex in the face
+  };
+  bool boundary = false;
+  std::vector<Sector> sectors;
+
+  int valence() const { return static_cast<int>(sectors.size()); }
+  /// Chart of sector `s` (any integer; around an interior vertex taken modulo the valence) into the plane developed about
+  /// the vertex: the vertex at 0, sector 0 between the angles 0 and 60°, sector s between s·60° and (s+1)·60°.
+  Transition develop(int s) const;
+  const Sector& sector(int s) const;
+  /// The sector in which `face` lies, -1 if the face is not around the vertex.
+  int find(int face) const;
+};
+
+std::vector<BaseFan> base_fans(const BaseComplex& base);
+
+/// A map in the making: every vertex of the surface has a chart and a position in it, every edge an exact change of chart.
+/// Moving a vertex to another chart changes the transitions of its edges by one composition and nothing else
+/// (algorithms.md §1).
+class Atlas {
+ public:
+  std::shared_ptr<const Surface> surface;
+  BaseComplex base;
+  std::vector<BaseFan> fans;          ///< per base vertex
+  std::vector<int> corner;            ///< #V base vertex of a patch corner, -1 for all others
+  std::vector<int> patch;             ///< #V chart; of a corner any around it; -1 for isolated vertices
+  std::vector<Complex> position;      ///< #V in that chart
+  /// #E from the chart of the edge's end to that of its start, by the edge's direction. At a corner it is defined up to
+  /// turns about the corner, which leave the corner's position where it is.
+  std::vector<Transition> transition;
+
+  /// From the chart of the other end to that of the end at which `forward` says the edge starts.
+  Transition towards(int edge, bool forward) const {
+    return forward ? transition[edge] : transition[edge].inverse();
+  }
+
+  /// Changes the chart of a vertex that is no corner; `change` maps the old chart to the new one.
+  void change_chart(int vertex, int chart, const Transition& change);
+
+  /// Walks a vertex that lies outside its chart's triangle across base edges until it lies inside. Returns false, and
+  /// leaves the vertex as it was, where the walk leaves the base or turns around a corner without an end.
+  bool reassign(int vertex);
+
+  /// Transitions of the face's corners into a common chart, that of corner `reference` (0..2). Around a face no corner of
+  /// which is a patch corner the result does not depend on the reference.
+  struct FaceFrame {
+    int chart = -1;
+    std::array<Transition, 3> to_chart;
+  };
+  FaceFrame face_frame(int face) const;
+  std::array<Complex, 3> face_corners(int face, const FaceFrame& frame) const;
+
+  /// Number of faces with no positive area in their chart.
+  int flipped_faces() const;
+
+  /// Number of faces without patch corners around which the transitions do not compose to the identity: 0 always holds.
+  int broken_faces() const;
+
+  Parameterization finish(std::vector<std::string> provenance) const;
+};
+
+}  // namespace gsp

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "param/atlas.h"
+
+namespace gsp {
+
+/// Solves the global parameterization system (§3.2.1, equation 2), z_i = Σ c_ij τ_ij(z_j), one complex unknown per vertex
+/// that is neither a patch corner nor on a boundary, for the given edge weights (see `mean_value_weights`), and then moves
+/// vertices that left their patch to the chart they lie in. Returns the number of vertices that lie in no chart (they are
+/// beside corners, where the solution is folded). Throws Error(SolverFailed).
+int solve_global(Atlas& atlas, const std::vector<std::array<double, 2>>& weights);
+
+/// Puts every boundary vertex onto its base boundary edge, spaced by arc length between the two corners.
+void place_boundary(Atlas& atlas);
+
+}  // namespace gsp

@@ -1,0 +1,240 @@
+#include "param/relax_corners.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <unordered_map>
+
+#include "mesh/parallel.h"
+#include "param/sparse_solver.h"
+
+namespace gsp {
+
+namespace {
+
+constexpr double kSector = std::numbers::pi / 3.0;
+
+/// One vertex of the region around a corner, seen from the corner.
+struct DiscVertex {
+  int vertex;
+  bool inside;        ///< solved for; the others form the held rim
+  Transition develop; ///< its chart -> the plane developed about the corner
+  double angle;       ///< in that plane, continued without jumps from the first vertex (in (-∞, ∞))
+  Complex disc;       ///< position in the disc
+};
+
+struct NewPlace {
+  int vertex;
+  int chart;
+  Complex position;
+};
+struct NewTransition {
+  int edge;
+  Transition transition;
+};
+
+/// What a corner's relaxation changes; applied after all corners are computed.
+struct Move {
+  int base_vertex = -1;
+  int new_corner = -1;
+  std::vector<NewPlace> places;
+  std::vector<NewTransition> transitions;
+};
+
+class Relaxation {
+ public:
+  Relaxation(const Atlas& atlas, const std::vector<std::array<double, 2>>& weights, double radius, int base_vertex)
+      : atlas_(atlas),
+        weights_(weights),
+        radius_(radius),
+        fan_(atlas.fans[base_vertex]),
+        corner_(atlas.base.vertices[base_vertex]),
+        cone_(fan_.valence() * kSector) {}
+
+  /// False where the corner stays.
+  bool run(Move& move) {
+    if (fan_.boundary || !collect() || !solve() || !embedded()) return false;
+    int nearest = 0;
+    for (std::size_t i = 1; i < vertices_.size(); ++i)
+      if (vertices_[i].inside && std::norm(vertices_[i].disc) < std::norm(vertices_[nearest].disc))
+        nearest = static_cast<int>(i);
+    if (nearest == 0) return false;
+    move.new_corner = vertices_[nearest].vertex;
+    place(nearest, move);
+    return true;
+  }
+
+ private:
+  bool collect();
+  bool solve();
+  bool embedded() const;
+  void place(int nearest, Move& move);
+
+  const Surface& surface() const { return *atlas_.surface; }
+  Complex to_disc(double radius, double angle) const {
+    const double power = 6.0 / fan_.valence();
+    return std::polar(std::pow(radius, power), angle * power);
+  }
+
+  const Atlas& atlas_;
+  const std::vector<std::array<double, 2>>& weights_;
+  const double radius_;
+  const BaseFan& fan_;
+  const int corner_;
+  const double cone_;  ///< angle around the corner
+  std::vector<DiscVertex> vertices_;  ///< [0] is the corner
+  std::unordered_map<int, int> index_;
+};
+
+bool Relaxation::collect() {
+  vertices_.push_back({corner_, true, fan_.develop(fan_.find(atlas_.patch[corner_])), 0.0, 0.0});
+  index_[corner_] = 0;
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    if (!vertices_[i].inside) continue;
+    const DiscVertex from = vertices_[i];
+    const Complex from_plane = i == 0 ? 0.0 : from.develop.apply(atlas_.position[from.vertex]);
+    bool good = true;
+    surface().for_each_neighbour(from.vertex, [&](int w, int edge, bool forward) {
+      if (!good || index_.count(w)) return;
+      DiscVertex next{w, false, {}, 0.0, 0.0};
+      if (i == 0) {
+        // From the corner itself a neighbour's sector is the one of its own chart: any turn of it is as good.
+        const int s = fan_.find(atlas_.patch[w]);
+        if (s < 0 || atlas_.corner[w] >= 0) {
+          good = false;
+          return;
+        }
+        next.develop = fan_.develop(s);
+        const Complex plane = next.develop.apply(atlas_.position[w]);
+        const double middle = (s + 0.5) * kSector;
+        next.angle = middle + std::arg(plane * std::polar(1.0, -middle));
+      } else {
+        next.develop = from.develop * atlas_.towards(edge, forward);
+        const Complex plane = next.develop.apply(atlas_.position[w]);
+        next.angle = from.angle + std::arg(plane / from_plane);
+      }
+      const double r = std::abs(next.develop.apply(atlas_.position[w]));
+      next.inside = r < radius_ && atlas_.corner[w] < 0 && !surface().halfedges.boundary_vertex(w);
+      next.disc = to_disc(r, next.angle);
+      index_[w] = static_cast<int>(vertices_.size());
+      vertices_.push_back(next);
+    });
+    if (!good) return false;
+  }
+  return vertices_.size() > 1;
+}
+
+bool Relaxation::solve() {
+  std::vector<int> row(vertices_.size(), -1);
+  int unknowns = 0;
+  for (std::size_t i = 0; i < vertices_.size(); ++i)
+    if (vertices_[i].inside) row[i] = unknowns++;
+  if (unknowns == static_cast<int>(vertices_.size())) return false;
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(unknowns, 2);
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    if (row[i] < 0) continue;
+    double sum = 0.0;
+    surface().for_each_neighbour(vertices_[i].vertex, [&](int w, int edge, bool forward) {
+      const double c = weights_[edge][forward ? 0 : 1];
+      sum += c;
+      const int j = index_.at(w);
+      if (row[j] >= 0) {
+        entries.emplace_back(row[i], row[j], -c);
+      } else {
+        right(row[i], 0) += c * vertices_[j].disc.real();
+        right(row[i], 1) += c * vertices_[j].disc.imag();
+      }
+    });
+    entries.emplace_back(row[i], row[i], sum);
+  }
+  Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  Eigen::MatrixX2d x;
+  if (!solve_sparse(matrix, right, x)) return false;
+  for (std::size_t i = 0; i < vertices_.size(); ++i)
+    if (row[i] >= 0) vertices_[i].disc = {x(row[i], 0), x(row[i], 1)};
+  return true;
+}
+
+bool Relaxation::embedded() const {
+  for (const DiscVertex& v : vertices_) {
+    if (!v.inside) continue;
+    const int start = surface().halfedges.outgoing[v.vertex];
+    for (int h = start;;) {
+      const Complex a = vertices_[index_.at(surface().halfedges.to(h))].disc;
+      const Complex b = vertices_[index_.at(surface().halfedges.to(Halfedges::next(h)))].disc;
+      if (chart_area(v.disc, a, b) <= 0.0) return false;
+      h = surface().halfedges.rotate_ccw(h);
+      if (h == start) break;
+    }
+  }
+  return true;
+}
+
+void Relaxation::place(int nearest, Move& move) {
+  const double power = fan_.valence() / 6.0;
+  // New frames of all inside vertices; the rim keeps its own.
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    DiscVertex& v = vertices_[i];
+    if (!v.inside) continue;
+    int sector = 0;
+    Complex plane = 0.0;
+    if (static_cast<int>(i) != nearest) {
+      v.angle = std::arg(v.disc) * power;
+      sector = static_cast<int>(std::floor(v.angle / kSector));
+      plane = std::polar(std::pow(std::abs(v.disc), power), v.angle);
+    }
+    v.develop = fan_.develop(sector);
+    const BaseFan::Sector& s = fan_.sector(sector);
+    move.places.push_back({v.vertex, s.face,
+                           static_cast<int>(i) == nearest ? kChartCorners[s.corner].value()
+                                                          : v.develop.inverse().apply(plane)});
+  }
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    const DiscVertex& v = vertices_[i];
+    if (!v.inside) continue;
+    surface().for_each_neighbour(v.vertex, [&](int w, int edge, bool forward) {
+      const int j = index_.at(w);
+      const DiscVertex& other = vertices_[j];
+      if (other.inside && j < static_cast<int>(i)) return;
+      Transition to_other_plane = other.develop;
+      if (static_cast<int>(i) != nearest && j != nearest) {
+        // The edge is straight in the disc: it passes the corner on one side, which says by how many full turns the two
+        // planes differ.
+        const double along = v.angle + std::arg(other.disc / v.disc) * power;
+        const int turns = static_cast<int>(std::lround((along - other.angle) / cone_));
+        const int sixths = turns * fan_.valence();
+        to_other_plane = Transition{((sixths % 6) + 6) % 6, {}} * to_other_plane;
+      }
+      const Transition t = v.develop.inverse() * to_other_plane;
+      move.transitions.push_back({edge, forward ? t : t.inverse()});
+    });
+  }
+}
+
+}  // namespace
+
+int relax_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weights, double radius) {
+  std::vector<Move> moves(atlas.fans.size());
+  parallel_for(moves.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b)
+      if (Relaxation(atlas, weights, radius, static_cast<int>(b)).run(moves[b])) moves[b].base_vertex = static_cast<int>(b);
+  });
+  int moved = 0;
+  for (const Move& move : moves) {
+    if (move.base_vertex < 0) continue;
+    ++moved;
+    atlas.corner[atlas.base.vertices[move.base_vertex]] = -1;
+    atlas.base.vertices[move.base_vertex] = move.new_corner;
+    atlas.corner[move.new_corner] = move.base_vertex;
+    for (const NewPlace& place : move.places) {
+      atlas.patch[place.vertex] = place.chart;
+      atlas.position[place.vertex] = place.position;
+    }
+    for (const NewTransition& t : move.transitions) atlas.transition[t.edge] = t.transition;
+  }
+  return moved;
+}
+
+}  // namespace gsp

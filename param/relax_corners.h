@@ -1,0 +1,17 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "param/atlas.h"
+
+namespace gsp {
+
+/// Corner relaxation (§3.2.2): around every interior patch corner the vertices within `radius` (below 1/2, so that no two
+/// regions meet; in units of a base edge) are mapped to a disc by z^(6/k), the outermost are held, the inside is solved
+/// with the corner free, and the vertex nearest 0 becomes the corner; positions, charts and transitions of the region
+/// follow from the disc. A region that is no disc or whose disc map folds is left alone. Corners are independent of each
+/// other and computed in parallel. Returns the corners that moved; the global system has to be solved again.
+int relax_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weights, double radius);
+
+}  // namespace gsp

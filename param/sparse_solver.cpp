@@ -1,0 +1,66 @@
+#include "param/sparse_solver.h"
+
+#include <mutex>
+
+#ifdef GSP_SUITESPARSE
+#include <dlfcn.h>
+
+#include <Eigen/UmfPackSupport>
+#else
+#include <Eigen/SparseLU>
+#endif
+
+#include "mesh/error.h"
+
+namespace gsp {
+
+namespace {
+
+#ifdef GSP_SUITESPARSE
+template <class Matrix>
+using Solver = Eigen::UmfPackLU<Matrix>;
+
+/// A threaded BLAS sums in an order that depends on the number of threads; results must not.
+void use_one_blas_thread() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    if (void* set = dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) reinterpret_cast<void (*)(int)>(set)(1);
+  });
+}
+#else
+template <class Matrix>
+using Solver = Eigen::SparseLU<Matrix, Eigen::COLAMDOrdering<int>>;
+
+void use_one_blas_thread() {}
+#endif
+
+}  // namespace
+
+ComplexVector solve_sparse(const ComplexMatrix& a, const ComplexVector& b) {
+  if (b.size() == 0) return b;
+  use_one_blas_thread();
+  Solver<ComplexMatrix> solver;
+  solver.compute(a);
+  if (solver.info() != Eigen::Success)
+    throw Error(Cause::SolverFailed, "the sparse system of " + std::to_string(b.size()) + " unknowns was not factorized");
+  ComplexVector x = solver.solve(b);
+  const double residual = (a * x - b).norm();
+  if (!(residual <= 1e-8 * (b.norm() + 1e-300)))
+    throw Error(Cause::SolverFailed, "the sparse system was solved with a residual of " + std::to_string(residual));
+  return x;
+}
+
+bool solve_sparse(const Eigen::SparseMatrix<double>& a, const Eigen::MatrixX2d& b, Eigen::MatrixX2d& x) {
+  use_one_blas_thread();
+  Solver<Eigen::SparseMatrix<double>> solver;
+  solver.compute(a);
+  if (solver.info() != Eigen::Success) return false;
+  x.resize(b.rows(), 2);
+  for (int column = 0; column < 2; ++column) {
+    const Eigen::VectorXd right = b.col(column);
+    x.col(column) = solver.solve(right);
+  }
+  return x.allFinite() && (a * x - b).norm() <= 1e-8 * (b.norm() + 1e-300);
+}
+
+}  // namespace gsp
