@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <queue>
 #include <unordered_map>
 
 #include "mesh/parallel.h"
@@ -39,6 +40,7 @@ struct Move {
   int new_corner = -1;
   std::vector<NewPlace> places;
   std::vector<NewTransition> transitions;
+  std::vector<int> rim;
 };
 
 class Relaxation {
@@ -61,14 +63,17 @@ class Relaxation {
     if (nearest == 0) return false;
     move.new_corner = vertices_[nearest].vertex;
     place(nearest, move);
-    return true;
+    return closed(move);
   }
 
  private:
   bool collect();
+  void gather();
+  bool lift();
   bool solve();
   bool embedded() const;
   void place(int nearest, Move& move);
+  bool closed(const Move& move) const;
 
   const Surface& surface() const { return *atlas_.surface; }
   Complex to_disc(double radius, double angle) const {
@@ -87,41 +92,84 @@ class Relaxation {
 };
 
 bool Relaxation::collect() {
-  vertices_.push_back({corner_, true, fan_.develop(fan_.find(atlas_.patch[corner_])), 0.0, 0.0});
-  index_[corner_] = 0;
+  gather();
+  return vertices_.size() > 1 && lift();
+}
+
+/// The corner, the vertices within the radius that are connected to it, and the rim around them.
+void Relaxation::gather() {
+  const auto add = [&](int v, bool inside) {
+    if (!index_.emplace(v, static_cast<int>(vertices_.size())).second) return;
+    vertices_.push_back({v, inside, {}, 0.0, 0.0});
+  };
+  add(corner_, true);
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
     if (!vertices_[i].inside) continue;
-    const DiscVertex from = vertices_[i];
-    const Complex from_plane = i == 0 ? 0.0 : from.develop.apply(atlas_.position[from.vertex]);
-    bool good = true;
-    surface().for_each_neighbour(from.vertex, [&](int w, int edge, bool forward) {
-      if (!good || index_.count(w)) return;
-      DiscVertex next{w, false, {}, 0.0, 0.0};
-      if (i == 0) {
-        // From the corner itself a neighbour's sector is the one of its own chart: any turn of it is as good.
-        const int s = fan_.find(atlas_.patch[w]);
-        if (s < 0 || atlas_.corner[w] >= 0) {
-          good = false;
-          return;
-        }
-        next.develop = fan_.develop(s);
-        const Complex plane = next.develop.apply(atlas_.position[w]);
-        const double middle = (s + 0.5) * kSector;
-        next.angle = middle + std::arg(plane * std::polar(1.0, -middle));
-      } else {
-        next.develop = from.develop * atlas_.towards(edge, forward);
-        const Complex plane = next.develop.apply(atlas_.position[w]);
-        next.angle = from.angle + std::arg(plane / from_plane);
-      }
-      const double r = std::abs(next.develop.apply(atlas_.position[w]));
-      next.inside = r < radius_ && atlas_.corner[w] < 0 && !surface().halfedges.boundary_vertex(w);
-      next.disc = to_disc(r, next.angle);
-      index_[w] = static_cast<int>(vertices_.size());
-      vertices_.push_back(next);
+    surface().for_each_neighbour(vertices_[i].vertex, [&](int w, int, bool) {
+      const int s = fan_.find(atlas_.patch[w]);
+      add(w, s >= 0 && atlas_.corner[w] < 0 && !surface().halfedges.boundary_vertex(w) &&
+                 std::abs(fan_.develop(s).apply(atlas_.position[w])) < radius_);
     });
-    if (!good) return false;
   }
-  return vertices_.size() > 1;
+}
+
+/// Develops the region about the corner. The map may be folded next to the corner, so the plane is continued from the
+/// outermost vertices inwards: a fold cannot put a wrong turn into the rim, which is all that the new map takes over.
+bool Relaxation::lift() {
+  int seed = -1;
+  double farthest = -1.0;
+  for (std::size_t i = 1; i < vertices_.size(); ++i) {
+    const int s = fan_.find(atlas_.patch[vertices_[i].vertex]);
+    if (s < 0 || atlas_.corner[vertices_[i].vertex] >= 0) continue;
+    const Transition develop = fan_.develop(s);
+    const Complex plane = develop.apply(atlas_.position[vertices_[i].vertex]);
+    if (std::abs(plane) <= farthest) continue;
+    farthest = std::abs(plane);
+    seed = static_cast<int>(i);
+    const double middle = (s + 0.5) * kSector;
+    vertices_[i].develop = develop;
+    vertices_[i].angle = middle + std::arg(plane * std::polar(1.0, -middle));
+  }
+  if (seed < 0) return false;
+
+  struct Next {
+    double radius;
+    int index, from, edge;
+    bool forward;
+    bool operator<(const Next& other) const {
+      return radius != other.radius ? radius < other.radius : index > other.index;
+    }
+  };
+  std::priority_queue<Next> queue;
+  std::vector<char> done(vertices_.size(), 0);
+  done[0] = 1;
+  const auto visit = [&](int i) {
+    done[i] = 1;
+    const DiscVertex& v = vertices_[i];
+    surface().for_each_neighbour(v.vertex, [&](int w, int edge, bool forward) {
+      const auto at = index_.find(w);
+      if (at == index_.end() || done[at->second]) return;
+      const Complex plane = (v.develop * atlas_.towards(edge, forward)).apply(atlas_.position[w]);
+      queue.push({std::abs(plane), at->second, i, edge, forward});
+    });
+  };
+  vertices_[seed].disc = to_disc(farthest, vertices_[seed].angle);
+  visit(seed);
+  std::size_t reached = 2;
+  while (!queue.empty()) {
+    const Next next = queue.top();
+    queue.pop();
+    if (done[next.index]) continue;
+    ++reached;
+    const DiscVertex& from = vertices_[next.from];
+    DiscVertex& v = vertices_[next.index];
+    const Complex from_plane = from.develop.apply(atlas_.position[from.vertex]);
+    v.develop = from.develop * atlas_.towards(next.edge, next.forward);
+    v.angle = from.angle + std::arg(v.develop.apply(atlas_.position[v.vertex]) / from_plane);
+    v.disc = to_disc(next.radius, v.angle);
+    visit(next.index);
+  }
+  return reached == vertices_.size();
 }
 
 bool Relaxation::solve() {
@@ -175,6 +223,8 @@ bool Relaxation::embedded() const {
 void Relaxation::place(int nearest, Move& move) {
   const double power = fan_.valence() / 6.0;
   // New frames of all inside vertices; the rim keeps its own.
+  for (const DiscVertex& v : vertices_)
+    if (!v.inside) move.rim.push_back(v.vertex);
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
     DiscVertex& v = vertices_[i];
     if (!v.inside) continue;
@@ -213,6 +263,33 @@ void Relaxation::place(int nearest, Move& move) {
   }
 }
 
+/// Whether the new transitions compose to the identity around every face of the region, which the lifted rim implies
+/// unless the old map was folded there too.
+bool Relaxation::closed(const Move& move) const {
+  std::unordered_map<int, Transition> changed;
+  for (const NewTransition& t : move.transitions) changed.emplace(t.edge, t.transition);
+  const auto across = [&](int h) {
+    const int edge = surface().edge_of[h];
+    const auto at = changed.find(edge);
+    const Transition t = at == changed.end() ? atlas_.transition[edge] : at->second;
+    return surface().edge_halfedge[edge] == h ? t : t.inverse();
+  };
+  const auto is_corner = [&](int v) { return v == move.new_corner || (v != corner_ && atlas_.corner[v] >= 0); };
+  for (const DiscVertex& v : vertices_) {
+    if (!v.inside) continue;
+    const int start = surface().halfedges.outgoing[v.vertex];
+    int h = start;
+    do {
+      const int a = surface().halfedges.to(h), b = surface().halfedges.to(Halfedges::next(h));
+      if (!is_corner(v.vertex) && !is_corner(a) && !is_corner(b) &&
+          !(across(h) * across(Halfedges::next(h)) * across(Halfedges::prev(h))).is_identity())
+        return false;
+      h = surface().halfedges.rotate_ccw(h);
+    } while (h != start);
+  }
+  return true;
+}
+
 }  // namespace
 
 int relax_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weights, double radius) {
@@ -222,8 +299,17 @@ int relax_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weight
       if (Relaxation(atlas, weights, radius, static_cast<int>(b)).run(moves[b])) moves[b].base_vertex = static_cast<int>(b);
   });
   int moved = 0;
+  std::vector<char> inside(atlas.surface->mesh.positions.size(), 0), rim(inside);
   for (const Move& move : moves) {
     if (move.base_vertex < 0) continue;
+    // Where edges are long two regions can overlap: the later corner waits for the next round.
+    const bool overlap =
+        std::any_of(move.rim.begin(), move.rim.end(), [&](int v) { return inside[v]; }) ||
+        std::any_of(move.places.begin(), move.places.end(),
+                    [&](const NewPlace& place) { return inside[place.vertex] || rim[place.vertex]; });
+    if (overlap) continue;
+    for (int v : move.rim) rim[v] = 1;
+    for (const NewPlace& place : move.places) inside[place.vertex] = 1;
     ++moved;
     atlas.corner[atlas.base.vertices[move.base_vertex]] = -1;
     atlas.base.vertices[move.base_vertex] = move.new_corner;
