@@ -1,0 +1,131 @@
+#include "param/parameterize.h"
+
+#include <iomanip>
+#include <sstream>
+
+#include "mesh/atomic_file.h"
+#include "mesh/topology.h"
+#include "param/global_system.h"
+#include "param/maps_smoothing.h"
+#include "param/relax_corners.h"
+#include "param/repair.h"
+#include "param/simplify.h"
+#include "param/stretch.h"
+#include "param/weights.h"
+
+namespace gsp {
+
+namespace {
+
+constexpr double kRelaxationRadius = 0.45;  // of a base edge; regions of radius below 1/2 never meet
+
+void check_options(const ParameterizeOptions& options) {
+  if (options.base_vertices != 0 && options.base_vertices < 4)
+    throw Error(Cause::BadOption, "base vertices must be at least 4, or 0 for the automatic number");
+  if (!(options.gamma >= 0.0) || !(options.mu >= 0.0))
+    throw Error(Cause::BadOption, "gamma and mu must not be negative");
+  if (options.relaxations < 0) throw Error(Cause::BadOption, "the number of relaxations must not be negative");
+}
+
+std::vector<std::string> provenance(const ParameterizeOptions& options, Method method, const Atlas& atlas) {
+  const auto line = [](const char* key, auto value) {
+    std::ostringstream text;
+    text << key << ' ' << std::setprecision(17) << value;
+    return text.str();
+  };
+  return {line("method", method_name(method)),         line("base_vertices", atlas.base.vertex_count()),
+          line("base_vertices_asked", options.base_vertices), line("gamma", options.gamma),
+          line("mu", options.mu),                      line("relaxations", options.relaxations)};
+}
+
+/// Alternates global solves and corner relaxation (§3.3, steps 2 to 4) and keeps the round of least stretch: relaxation
+/// removes folds and shear, but carried on it drives the corners toward a conformal map, which starves long limbs.
+void solve_and_relax(Atlas& atlas, const ParameterizeOptions& options, ParameterizeResult& result, Progress& progress) {
+  place_boundary(atlas);
+  const auto weights = mean_value_weights(*atlas.surface);
+  Atlas best;
+  double best_stretch = 0.0;
+  for (int round = 0;; ++round) {
+    progress.report("solve", double(round) / (options.relaxations + 1));
+    solve_global(atlas, weights);
+    const double stretch = l2_stretch(atlas);
+    if (round == 0 || stretch < best_stretch) {
+      best = atlas;
+      best_stretch = stretch;
+      result.relaxation_rounds = round;
+    }
+    if (round == options.relaxations) break;
+    const int moved = relax_corners(atlas, weights, kRelaxationRadius);
+    if (moved == 0) break;
+  }
+  atlas = std::move(best);
+}
+
+ParameterizeResult finish(Atlas atlas, Method method, const ParameterizeOptions& options, Progress& progress) {
+  ParameterizeResult result;
+  if (method == Method::MapsSmoothed) smooth_by_loop(atlas, progress);
+  if (method == Method::Gsp) {
+    const std::vector<int> first_corners = atlas.base.vertices;
+    solve_and_relax(atlas, options, result, progress);
+    for (int b = 0; b < atlas.base.vertex_count(); ++b) result.corners_moved += atlas.base.vertices[b] != first_corners[b];
+    result.flips_before_repair = repair_folds(atlas, progress).flipped_before;
+  }
+  result.map = atlas.finish(provenance(options, method, atlas));
+  if (method == Method::Gsp) {
+    const MapCheck check = check_map(result.map);
+    if (!check.valid()) {
+      std::ostringstream why;
+      why << "the map is not valid: " << check.flipped_faces << " flipped faces, " << check.wrong_angle_vertices
+          << " vertices with a wrong angle, " << check.mismatched_edges << " mismatched edges, relative area error "
+          << check.area_error;
+      throw Error(Cause::InvalidMap, why.str());
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+const char* method_name(Method method) {
+  switch (method) {
+    case Method::Gsp: return "gsp";
+    case Method::Maps: return "maps";
+    case Method::MapsSmoothed: return "maps-smoothed";
+  }
+  return "unknown";
+}
+
+std::vector<ParameterizeResult> parameterize_all(const Mesh& mesh, const std::vector<Method>& methods,
+                                                 const ParameterizeOptions& options, Progress& progress) {
+  check_options(options);
+  require_parameterizable(mesh);
+  Mesh refined = mesh;
+  const int added = split_boundary_chords(refined);
+  if (added > 0) progress.note(std::to_string(added) + " interior edges between boundary vertices were split");
+  SimplifyResult simplified = simplify(std::make_shared<const Surface>(std::move(refined)), options, progress);
+  if (simplified.atlas.base.vertex_count() > options.base_vertices && options.base_vertices > 0)
+    progress.note("no further vertex can be removed: the base has " +
+                  std::to_string(simplified.atlas.base.vertex_count()) + " vertices instead of " +
+                  std::to_string(options.base_vertices));
+  std::vector<ParameterizeResult> results;
+  for (Method method : methods) {
+    results.push_back(finish(simplified.atlas, method, options, progress));
+    results.back().omega = simplified.omega;
+  }
+  return results;
+}
+
+ParameterizeResult parameterize(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress) {
+  return std::move(parameterize_all(mesh, {options.method}, options, progress).front());
+}
+
+void write_omega_csv(const std::string& path, const std::vector<OmegaRecord>& record) {
+  AtomicFile file(path);
+  file.stream() << "remaining_vertices,shape,dispersion,metric,omega\n" << std::setprecision(17);
+  for (const OmegaRecord& r : record)
+    file.stream() << r.remaining_vertices << ',' << r.shape << ',' << r.dispersion << ',' << r.metric << ',' << r.omega()
+                  << '\n';
+  file.commit();
+}
+
+}  // namespace gsp
