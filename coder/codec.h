@@ -24,9 +24,13 @@ struct EncodeOptions {
   int tangential_ratio = 4;
 };
 
-/// Codes a semi-regular mesh as an embedded stream: a checksummed header (connectivity through Draco), then bit-planes,
-/// most significant first. Any prefix that holds the header decodes (design.md, `*.pgc`).
-/// Throws Error: BadOption, NonFinite.
+/// Codes a semi-regular mesh as an embedded stream: a checksummed header with the base connectivity, then bit-planes, most
+/// significant first. Any prefix that holds the header decodes (design.md, `*.pgc`).
+///
+/// A decoder numbers base vertices and faces, and with them all finer vertices, in the order in which they were coded;
+/// `coded_vertex_order` (coder/coded_order.h) says which vertex became which.
+/// Throws Error: BadOption, NoFaces, NonFinite, Malformed (a base vertex without a face), SolverFailed, and the errors of
+/// `base_level`.
 Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress& progress);
 
 /// Number of bytes that a prefix needs at least. Throws Error(BadStream).

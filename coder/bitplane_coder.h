@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "coder/edge_forest.h"
+
+namespace gsp {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Integers of one mesh, as far as they are known: all bits from the top down to `low_plane`, zeros below.
+struct BitplaneCoefficients {
+  /// #B base vertices, offsets from the origin in base steps, and the lowest plane known of each.
+  std::vector<std::array<std::uint32_t, 3>> base;
+  std::vector<std::array<std::uint8_t, 3>> base_low_plane;
+  /// One of normal, first and second tangential component: #N magnitudes in steps, signs, lowest planes known.
+  struct Component {
+    std::vector<std::uint32_t> magnitude;
+    std::vector<std::uint8_t> negative;
+    std::vector<std::uint8_t> low_plane;
+  };
+  std::array<Component, 3> details;
+};
+
+/// What encoder and decoder must agree on besides the forest.
+struct BitplaneLayout {
+  int base_planes = 0;    ///< bits of a base coordinate, 0..31
+  int detail_planes = 0;  ///< bits of the largest detail magnitude, 0..31
+  std::vector<std::vector<int>> base_neighbours;  ///< #B, adjacent base vertices
+};
+
+/// Appends the embedded stream to `out`: planes from the top; in each the base positions, then the details level by level.
+void encode_bitplanes(const EdgeForest& forest, const BitplaneLayout& layout, const BitplaneCoefficients& coefficients,
+                      Bytes& out);
+
+/// What the bytes [begin, end) determine. Any bytes are safe.
+BitplaneCoefficients decode_bitplanes(const EdgeForest& forest, const BitplaneLayout& layout, const std::uint8_t* begin,
+                                      const std::uint8_t* end);
+
+}  // namespace gsp

@@ -1,0 +1,123 @@
+#include "coder/codec.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include "coder/bitplane_coder.h"
+#include "coder/coded_order.h"
+#include "coder/edge_forest.h"
+#include "coder/header.h"
+#include "coder/local_frames.h"
+#include "coder/quantizer.h"
+#include "coder/wavelet_transform.h"
+
+namespace gsp {
+
+namespace {
+
+void check(const SemiregularMesh& mesh, const EncodeOptions& options) {
+  if (options.precision_bits < 8 || options.precision_bits > 24)
+    throw Error(Cause::BadOption, "precision_bits " + std::to_string(options.precision_bits) + " is not in 8..24");
+  if (options.tangential_ratio < 1 || options.tangential_ratio > 8 ||
+      !std::has_single_bit(static_cast<unsigned>(options.tangential_ratio)))
+    throw Error(Cause::BadOption, "tangential_ratio " + std::to_string(options.tangential_ratio) + " is not 1, 2, 4 or 8");
+  if (mesh.base_faces.empty()) throw Error(Cause::NoFaces, "a mesh without base faces cannot be coded");
+  // Squares and their sums must stay finite.
+  constexpr double kLargest = 1e100;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    for (double x : mesh.positions[v])
+      if (!(std::abs(x) <= kLargest))
+        throw Error(Cause::NonFinite, "a coordinate is not finite or too large", Element::Vertex, static_cast<long long>(v));
+  std::vector<bool> used(mesh.base_vertices, false);
+  for (const Triangle& t : base_level(mesh.base_vertices, mesh.base_faces).faces)
+    for (int v : t) used[v] = true;
+  for (int v = 0; v < mesh.base_vertices; ++v)
+    if (!used[v]) throw Error(Cause::Malformed, "a base vertex belongs to no face", Element::Vertex, v);
+}
+
+BitplaneLayout bitplane_layout(const StreamHeader& header, const SubdivisionLevel& base) {
+  BitplaneLayout layout;
+  layout.base_planes = header.base_planes;
+  layout.detail_planes = header.detail_planes;
+  layout.base_neighbours.resize(base.vertex_count);
+  for (const auto& [a, b] : base.edges) {
+    layout.base_neighbours[a].push_back(b);
+    layout.base_neighbours[b].push_back(a);
+  }
+  return layout;
+}
+
+}  // namespace
+
+const char* wavelet_name(Wavelet wavelet) {
+  switch (wavelet) {
+    case Wavelet::Loop: return "loop";
+  }
+  return "unknown";
+}
+
+Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress& progress) {
+  check(mesh, options);
+  progress.report("connectivity", 0.0);
+  StreamHeader header;
+  header.wavelet = options.wavelet;
+  header.tangential_ratio = options.tangential_ratio;
+  header.level = mesh.level;
+  Bytes connectivity;
+  header.base = encode_connectivity(mesh.base_faces, connectivity);
+  const SemiregularMesh coded = in_coded_order(mesh, header.base);
+  const std::vector<SubdivisionLevel> levels = subdivision_levels(coded.base_vertices, coded.base_faces, coded.level);
+
+  progress.report("wavelet analysis", 0.1);
+  const WaveletTransform transform(levels);
+  std::vector<Vec3> positions = coded.positions;
+  std::vector<std::vector<Vec3>> details(coded.level);
+  for (int l = coded.level - 1; l >= 0; --l) {
+    WaveletTransform::Split split = transform.analysis(l, positions);
+    const std::vector<Frame> frames = edge_frames(levels[l], split.coarse);
+    for (std::size_t e = 0; e < frames.size(); ++e) split.details[e] = frames[e].transpose() * split.details[e];
+    details[l] = std::move(split.details);
+    positions = std::move(split.coarse);
+    progress.report("wavelet analysis", 0.8 - 0.7 * l / coded.level);
+  }
+
+  progress.report("entropy coding", 0.8);
+  const EdgeForest forest(levels);
+  const BitplaneCoefficients integers = quantize(positions, details, bounding_box_diagonal(mesh.mesh()), options.precision_bits, header);
+  Bytes bytes = write_header(header, connectivity);
+  encode_bitplanes(forest, bitplane_layout(header, levels[0]), integers, bytes);
+  progress.report("entropy coding", 1.0);
+  return bytes;
+}
+
+std::size_t header_bytes(const Bytes& stream) { return header_size(stream.data(), stream.data() + stream.size()); }
+
+SemiregularMesh decode(const Bytes& stream, std::size_t budget) {
+  const std::uint8_t* const begin = stream.data();
+  const std::size_t needed = header_bytes(stream);
+  if (needed > std::min(budget, stream.size()))
+    throw Error(Cause::Truncated, "a coded mesh needs at least its header of " + std::to_string(needed) + " bytes");
+  const StreamHeader header = read_header(begin, begin + stream.size());
+
+  SemiregularMesh mesh;
+  mesh.level = header.level;
+  mesh.base_vertices = header.base.vertices;
+  mesh.base_faces = header.base.faces;
+  const std::vector<SubdivisionLevel> levels = subdivision_levels(mesh.base_vertices, mesh.base_faces, mesh.level);
+  const EdgeForest forest(levels);
+  const BitplaneCoefficients integers = decode_bitplanes(forest, bitplane_layout(header, levels[0]), begin + needed,
+                                                         begin + std::min(budget, stream.size()));
+  const WaveletTransform transform(levels);
+  mesh.positions = dequantize_base(integers, header);
+  for (int l = 0; l < mesh.level; ++l) {
+    const std::vector<Frame> frames = edge_frames(levels[l], mesh.positions);
+    std::vector<Vec3> details = dequantize_details(integers, forest, l, header);
+    for (std::size_t e = 0; e < frames.size(); ++e) details[e] = frames[e] * details[e];
+    mesh.positions = transform.synthesis(l, mesh.positions, details);
+  }
+  return mesh;
+}
+
+}  // namespace gsp

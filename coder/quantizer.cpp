@@ -1,0 +1,111 @@
+#include "coder/quantizer.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace gsp {
+
+namespace {
+
+/// Limit L2 norms at unit spacing (algorithms.md §5).
+constexpr double kScalingNorm = 0.5125;
+constexpr double kWaveletNorm = 0.374;
+
+/// Normal details of level l insert vertices of spacing 2^-(l+1).
+double detail_step(const StreamHeader& header, int level) {
+  return std::ldexp(1.0, header.step_exponent - (header.level - 1 - level));
+}
+
+double base_step(const StreamHeader& header) {
+  return std::ldexp(1.0, header.step_exponent - header.level) * (kWaveletNorm / kScalingNorm);
+}
+
+double component_step(const StreamHeader& header, int level, int c) {
+  return detail_step(header, level) * (c == 0 ? 1 : header.tangential_ratio);
+}
+
+double origin_unit(const StreamHeader& header) { return std::ldexp(base_step(header), header.base_planes - 3); }
+
+/// Chooses planes and origin so that every base position lies inside, and returns the integers.
+std::vector<std::array<std::uint32_t, 3>> quantize_base(const std::vector<Vec3>& base, StreamHeader& header) {
+  Vec3 low = base[0], high = base[0];
+  for (const Vec3& p : base) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const double step = base_step(header);
+  for (header.base_planes = 1; header.base_planes < 31; ++header.base_planes) {
+    const double unit = origin_unit(header);
+    bool fits = true;
+    for (int k = 0; k < 3; ++k) {
+      header.origin[k] = static_cast<std::int64_t>(std::floor(low[k] / unit));
+      fits = fits && (high[k] - header.origin[k] * unit) / step < std::ldexp(1.0, header.base_planes) - 1.0;
+    }
+    if (fits) break;
+  }
+  std::vector<std::array<std::uint32_t, 3>> integers(base.size());
+  const double limit = std::ldexp(1.0, header.base_planes) - 1.0;
+  for (std::size_t v = 0; v < base.size(); ++v)
+    for (int k = 0; k < 3; ++k) {
+      const double offset = (base[v][k] - header.origin[k] * origin_unit(header)) / step;
+      integers[v][k] = static_cast<std::uint32_t>(std::clamp(std::floor(offset), 0.0, limit));
+    }
+  return integers;
+}
+
+}  // namespace
+
+BitplaneCoefficients quantize(const std::vector<Vec3>& base, const std::vector<std::vector<Vec3>>& details, double diagonal,
+                              int precision_bits, StreamHeader& header) {
+  header.step_exponent = diagonal > 0.0 ? static_cast<int>(std::floor(std::log2(diagonal))) - precision_bits : 0;
+  BitplaneCoefficients integers;
+  integers.base = quantize_base(base, header);
+  std::uint32_t largest = 0;
+  for (int c = 0; c < 3; ++c) {
+    BitplaneCoefficients::Component& component = integers.details[c];
+    for (std::size_t l = 0; l < details.size(); ++l) {
+      const double step = component_step(header, static_cast<int>(l), c);
+      for (const Vec3& d : details[l]) {
+        const double steps = std::min(std::floor(std::abs(d[c]) / step), 0x1p31 - 1.0);
+        component.magnitude.push_back(static_cast<std::uint32_t>(steps));
+        component.negative.push_back(d[c] < 0.0);
+        largest = std::max(largest, component.magnitude.back());
+      }
+    }
+  }
+  header.detail_planes = std::bit_width(largest);
+  return integers;
+}
+
+std::vector<Vec3> dequantize_base(const BitplaneCoefficients& integers, const StreamHeader& header) {
+  std::vector<Vec3> base(integers.base.size());
+  for (std::size_t v = 0; v < base.size(); ++v)
+    for (int k = 0; k < 3; ++k) {
+      const double centre = integers.base[v][k] + std::ldexp(0.5, integers.base_low_plane[v][k]);
+      base[v][k] = header.origin[k] * origin_unit(header) + centre * base_step(header);
+    }
+  return base;
+}
+
+std::vector<Vec3> dequantize_details(const BitplaneCoefficients& integers, const EdgeForest& forest, int level,
+                                     const StreamHeader& header) {
+  // Small magnitudes are likelier inside each interval.
+  constexpr double kCentroid = 0.42;
+  std::vector<Vec3> details;
+  details.reserve(forest.level_begin[level + 1] - forest.level_begin[level]);
+  for (int n = forest.level_begin[level]; n < forest.level_begin[level + 1]; ++n) {
+    Vec3 d = Vec3::Zero();
+    for (int c = 0; c < 3; ++c) {
+      const BitplaneCoefficients::Component& component = integers.details[c];
+      const std::uint32_t magnitude = component.magnitude[n];
+      if (magnitude == 0) continue;
+      const double centre = magnitude + std::ldexp(kCentroid, component.low_plane[n]);
+      d[c] = centre * component_step(header, level, c) * (component.negative[n] ? -1.0 : 1.0);
+    }
+    details.push_back(d);
+  }
+  return details;
+}
+
+}  // namespace gsp

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "coder/bitplane_coder.h"
+#include "coder/header.h"
+
+namespace gsp {
+
+/// Turns coefficients into integers. Steps are in inverse proportion to the L2 norm of what a coefficient adds to the
+/// surface: the step of normal details doubles per finer level, tangential details take `header.tangential_ratio` times
+/// it, base positions the coarsest level's share. Sets the header's step exponent, origin and plane counts.
+/// `details[l]` are in local frames: normal, two tangential components.
+BitplaneCoefficients quantize(const std::vector<Vec3>& base, const std::vector<std::vector<Vec3>>& details, double diagonal,
+                              int precision_bits, StreamHeader& header);
+
+/// The inverse, each value at the centre of what is known of it.
+std::vector<Vec3> dequantize_base(const BitplaneCoefficients& integers, const StreamHeader& header);
+
+/// Details of level `level` in local frames.
+std::vector<Vec3> dequantize_details(const BitplaneCoefficients& integers, const EdgeForest& forest, int level,
+                                     const StreamHeader& header);
+
+}  // namespace gsp

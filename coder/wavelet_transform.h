@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "mesh/progress.h"
+#include "remesh/semiregular.h"
+
+namespace gsp {
+
+/// Synthesis x_{l+1} = P x_l + Q d_l over the levels of one connectivity, and its inverse.
+///
+/// Coefficients are stored as the mesh stores positions: those of base vertices first, then for each level those of its
+/// edges in edge order, so that the coefficient at index V_l + e belongs to edge e of level l.
+class WaveletTransform {
+ public:
+  /// Builds P and Q of every level. O(vertices).
+  explicit WaveletTransform(const std::vector<SubdivisionLevel>& levels);
+  ~WaveletTransform();
+  WaveletTransform(WaveletTransform&&) noexcept;
+
+  int levels() const;
+
+  /// Low-pass part P c of one step: positions of level l+1 from those of level l.
+  std::vector<Vec3> low_pass(int level, const std::vector<Vec3>& coarse) const;
+
+  /// One step: low_pass + Q d, with d the details of the level's edges.
+  std::vector<Vec3> synthesis(int level, const std::vector<Vec3>& coarse, const std::vector<Vec3>& details) const;
+
+  struct Split {
+    std::vector<Vec3> coarse;
+    std::vector<Vec3> details;
+    int iterations = 0;  ///< of the iterative solver, over the three coordinates
+  };
+
+  /// Solves [P Q][c; d] = x to rounding (relative residual 1e-13) by BiCGSTAB.
+  /// Throws Error(SolverFailed) where it does not converge.
+  Split analysis(int level, const std::vector<Vec3>& fine) const;
+
+ private:
+  struct Impl;
+  std::vector<Impl> impl_;
+};
+
+}  // namespace gsp

@@ -1,0 +1,123 @@
+#include "coder/codec.h"
+
+#include <catch2/catch.hpp>
+#include <functional>
+#include <limits>
+
+#include "coder/base_connectivity.h"
+#include "coder/coded_order.h"
+#include "tests/coder/sample_meshes.h"
+
+using namespace gsp;
+
+namespace {
+
+Progress silent;
+
+Cause cause_of(const std::function<void()>& body) {
+  try {
+    body();
+  } catch (const Error& error) {
+    return error.cause();
+  }
+  return Cause::Internal;
+}
+
+/// RMS over vertices between a mesh and its decoded form, which is in coded order.
+double rms_error(const SemiregularMesh& mesh, const SemiregularMesh& decoded) {
+  Bytes unused;
+  const std::vector<int> order = coded_vertex_order(mesh, encode_connectivity(mesh.base_faces, unused));
+  REQUIRE(order.size() == decoded.positions.size());
+  double sum = 0.0;
+  for (std::size_t v = 0; v < order.size(); ++v) sum += (decoded.positions[v] - mesh.positions[order[v]]).squaredNorm();
+  return std::sqrt(sum / order.size());
+}
+
+}  // namespace
+
+TEST_CASE("the whole stream holds the mesh to its precision") {
+  for (const SemiregularMesh& mesh : {samples::bumpy_sphere(4), samples::wavy_sheet(3),
+                                      samples::noise(shapes::icosahedron(), 0)}) {
+    const double diagonal = bounding_box_diagonal(mesh.mesh());
+    for (int bits : {10, 16, 22}) {
+      EncodeOptions options;
+      options.precision_bits = bits;
+      const Bytes stream = encode(mesh, options, silent);
+      CHECK(rms_error(mesh, decode(stream, stream.size())) < 4.0 * std::ldexp(diagonal, -bits));
+    }
+  }
+}
+
+TEST_CASE("a decoded mesh is coded to itself, bit for bit the same every time") {
+  const SemiregularMesh mesh = samples::bumpy_sphere(3);
+  const Bytes stream = encode(mesh, {}, silent);
+  CHECK(encode(mesh, {}, silent) == stream);
+  const SemiregularMesh once = decode(stream, stream.size()), twice = decode(stream, stream.size());
+  CHECK(once.positions == twice.positions);
+  CHECK(once.base_faces == twice.base_faces);
+  CHECK(once.mesh().faces.size() == mesh.mesh().faces.size());
+}
+
+TEST_CASE("every prefix that holds the header decodes, and more bytes are better") {
+  const SemiregularMesh mesh = samples::bumpy_sphere(4);
+  const Bytes stream = encode(mesh, {}, silent);
+  const std::size_t header = header_bytes(stream);
+  double last = std::numeric_limits<double>::infinity();
+  for (std::size_t bytes = header; bytes <= stream.size(); bytes += 1 + bytes / 3) {
+    const double error = rms_error(mesh, decode(stream, bytes));
+    CHECK(error < 1.1 * last);
+    last = std::min(last, error);
+  }
+  CHECK(last < 0.01);
+  const Bytes cut(stream.begin(), stream.begin() + header + 100);
+  CHECK(decode(cut, cut.size()).positions == decode(stream, header + 100).positions);
+  CHECK(cause_of([&] { decode(stream, header - 1); }) == Cause::Truncated);
+  CHECK(cause_of([&] { decode({}, 0); }) == Cause::BadStream);
+}
+
+TEST_CASE("options and meshes that cannot be coded are refused") {
+  SemiregularMesh mesh = samples::bumpy_sphere(1);
+  const auto refusal = [&](EncodeOptions options) { return cause_of([&] { encode(mesh, options, silent); }); };
+  CHECK(refusal({Wavelet::Loop, 7, 4}) == Cause::BadOption);
+  CHECK(refusal({Wavelet::Loop, 25, 4}) == Cause::BadOption);
+  CHECK(refusal({Wavelet::Loop, 16, 3}) == Cause::BadOption);
+  CHECK(refusal({Wavelet::Loop, 16, 16}) == Cause::BadOption);
+  mesh.positions[7].y() = std::numeric_limits<double>::quiet_NaN();
+  CHECK(refusal({}) == Cause::NonFinite);
+  CHECK(cause_of([&] { encode({}, {}, silent); }) == Cause::NoFaces);
+}
+
+TEST_CASE("degenerate geometry and extreme places are coded") {
+  const double tolerance = 1e-3;
+  SemiregularMesh point = samples::refine(shapes::icosahedron(), 2, [](const Vec3&) { return Vec3(3, 4, 5); });
+  Bytes stream = encode(point, {}, silent);
+  CHECK(rms_error(point, decode(stream, stream.size())) < 2.0);
+  SemiregularMesh far = samples::refine(shapes::icosahedron(), 2, [](const Vec3& p) { return Vec3(p + Vec3(1e6, -1e6, 1e6)); });
+  stream = encode(far, {}, silent);
+  CHECK(rms_error(far, decode(stream, stream.size())) < tolerance);
+  SemiregularMesh tiny = samples::refine(shapes::icosahedron(), 2, [](const Vec3& p) { return Vec3(p * 1e-30); });
+  stream = encode(tiny, {}, silent);
+  CHECK(rms_error(tiny, decode(stream, stream.size())) < 1e-30 * tolerance);
+}
+
+TEST_CASE("an altered header is a bad stream, an altered body is some mesh") {
+  const SemiregularMesh mesh = samples::bumpy_sphere(2);
+  const Bytes stream = encode(mesh, {}, silent);
+  const std::size_t header = header_bytes(stream);
+  for (std::size_t byte = 0; byte < header; ++byte)
+    for (int bit = 0; bit < 8; ++bit) {
+      Bytes damaged = stream;
+      damaged[byte] ^= 1 << bit;
+      const Cause cause = cause_of([&] { decode(damaged, damaged.size()); });
+      CHECK((cause == Cause::BadStream || cause == Cause::Truncated));
+    }
+  Random random(5);
+  for (int trial = 0; trial < 200; ++trial) {
+    Bytes damaged = stream;
+    for (int flips = 0; flips < 3; ++flips)
+      damaged[header + random.next() % (stream.size() - header)] ^= 1 << random.next() % 8;
+    const SemiregularMesh decoded = decode(damaged, damaged.size());
+    CHECK(decoded.positions.size() == mesh.positions.size());
+    for (const Vec3& p : decoded.positions) REQUIRE(p.allFinite());
+  }
+}

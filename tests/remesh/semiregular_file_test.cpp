@@ -1,0 +1,66 @@
+#include "remesh/semiregular_file.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <functional>
+
+#include "mesh/error.h"
+#include "mesh/io.h"
+#include "mesh/shapes.h"
+
+using namespace gsp;
+
+namespace {
+
+Cause cause_of(const std::function<void()>& body) {
+  try {
+    body();
+  } catch (const Error& error) {
+    return error.cause();
+  }
+  return Cause::Internal;
+}
+
+/// Midpoint quadrisections of a plain mesh.
+SemiregularMesh flat_refinement(const Mesh& base, int level) {
+  SemiregularMesh mesh;
+  mesh.level = level;
+  mesh.base_vertices = base.vertex_count();
+  mesh.base_faces = base.faces;
+  mesh.positions = base.positions;
+  const std::vector<SubdivisionLevel> levels = subdivision_levels(mesh.base_vertices, mesh.base_faces, level);
+  for (int l = 0; l < level; ++l)
+    for (const auto& [a, b] : levels[l].edges) mesh.positions.push_back((mesh.positions[a] + mesh.positions[b]) / 2);
+  return mesh;
+}
+
+std::string temporary(const char* name) { return (std::filesystem::temp_directory_path() / name).string(); }
+
+}  // namespace
+
+TEST_CASE("a semi-regular file comes back bit for bit, and a changed one is refused") {
+  const std::string path = temporary("gsp_semiregular_test.sr.ply");
+  const SemiregularMesh mesh = flat_refinement(shapes::icosahedron(), 2);
+  write_semiregular(path, mesh);
+  const SemiregularMesh back = read_semiregular(path);
+  CHECK(back.level == 2);
+  CHECK(back.base_vertices == 12);
+  CHECK(back.base_faces == mesh.base_faces);
+  CHECK(back.positions == mesh.positions);
+
+  const Mesh plain = mesh.mesh();
+  write_mesh(path, plain);
+  CHECK(cause_of([&] { read_semiregular(path); }) == Cause::NoSubdivisionConnectivity);
+  const auto with = [&](const Mesh& m, const char* level, const char* vertices, const char* faces) {
+    write_mesh(path, m, {"gsp semiregular 1", level, vertices, faces});
+    return cause_of([&] { read_semiregular(path); });
+  };
+  CHECK(with(plain, "level 3", "base_vertices 12", "base_faces 20") == Cause::NoSubdivisionConnectivity);
+  CHECK(with(plain, "level -1", "base_vertices 12", "base_faces 20") == Cause::NoSubdivisionConnectivity);
+  CHECK(with(plain, "level 2", "base_vertices 2000000000", "base_faces 20") == Cause::NoSubdivisionConnectivity);
+  CHECK(with(plain, "level 1", "base_vertices 12", "base_faces 80") == Cause::NoSubdivisionConnectivity);
+  Mesh swapped = plain;
+  std::swap(swapped.faces[5], swapped.faces[6]);
+  CHECK(with(swapped, "level 2", "base_vertices 12", "base_faces 20") == Cause::NoSubdivisionConnectivity);
+  std::filesystem::remove(path);
+}
