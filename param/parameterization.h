@@ -37,15 +37,27 @@ struct MapCheck {
   /// folds that positive areas alone cannot see.
   int wrong_angle_vertices = 0;
   int first_wrong_angle = -1;
+  /// Vertices whose `position` lies outside the triangle of their `patch`, base vertices that are not at their corner, and
+  /// vertices whose `position` no lattice motion takes to a corner of a face around them (all to 1e-9).
+  int misplaced_vertices = 0;
+  int first_misplaced = -1;
   /// Edges on which the charts of the two faces do not differ by an exact lattice motion (to 1e-9).
   int mismatched_edges = 0;
 
   bool valid() const {
-    return flipped_faces == 0 && wrong_angle_vertices == 0 && mismatched_edges == 0 && area_error < 1e-9;
+    return flipped_faces == 0 && wrong_angle_vertices == 0 && misplaced_vertices == 0 && mismatched_edges == 0 &&
+           area_error < 1e-9;
   }
 };
 
-/// Checks a map without trusting how it was made: from positions and face corners alone. O(V + F).
+/// Throws where the arrays do not fit together: sizes, indices out of range, values that are not finite, a vertex of a
+/// face without a patch, a base face that names a vertex twice, twins that are not those of the base faces.
+/// Says nothing about the map itself. Throws Error: Malformed, IndexOutOfRange, NonFinite. O(V + F).
+void require_well_formed(const Parameterization& map);
+
+/// Checks a map without trusting how it was made: from positions and face corners alone. Positive areas, angle sums and
+/// exact transitions make it a covering of the base, and the area sum makes it cover once. O(V + F).
+/// Throws the errors of `require_well_formed`.
 MapCheck check_map(const Parameterization& map);
 
 }  // namespace gsp
