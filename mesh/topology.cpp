@@ -50,7 +50,8 @@ class Analysis {
   void check_vertices() {
     std::vector<char> used(mesh_.positions.size(), 0);
     for (const Triangle& t : mesh_.faces)
-      for (int v : t) used[v] = 1;
+      if (!names_vertex_twice(t))
+        for (int v : t) used[v] = 1;
     const std::vector<int> first = first_at_same_position(mesh_.positions);
     for (int v = 0; v < mesh_.vertex_count(); ++v) {
       if (!used[v]) report_.isolated_vertices.push_back(v);
