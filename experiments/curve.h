@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct CurvePoint {
   std::string wavelet, coder;
   std::size_t bytes = 0;
   double bits_per_vertex = 0.0;  ///< of the input
+  int faces = 0;                 ///< of the decoded surface
   double rms_forward = 0.0, rms_backward = 0.0, rms = 0.0, hausdorff = 0.0;
   double psnr_db = 0.0;
   std::size_t samples = 0;
@@ -29,25 +31,32 @@ struct CurvePoint {
   std::uint64_t seed = 0;
 };
 
-struct CurveOptions {
-  ParameterizeOptions parameterize;
-  std::vector<Method> methods = {Method::Gsp, Method::MapsSmoothed};
-  RemeshOptions remesh;
-  EncodeOptions encode;
-  std::vector<std::size_t> budgets;  ///< bytes; empty: 256, 512, 1024, ... up to the whole stream
-  std::size_t samples = 400000;      ///< per direction and point
-  std::uint64_t seed = 1;
-  bool anchors = true;               ///< Draco on the input and decimate-then-Draco
-};
-
 /// Everything measured on one model.
 struct CurveRun {
   std::vector<CurvePoint> points;
   std::vector<OmegaRecord> omega;
 };
 
+struct CurveOptions {
+  ParameterizeOptions parameterize;
+  std::vector<Method> methods = {Method::Gsp, Method::MapsSmoothed};
+  RemeshOptions remesh;
+  EncodeOptions encode;
+  std::vector<std::size_t> budgets;  ///< bytes; empty: 256, 512, 1024, ... up to the whole stream
+  std::size_t samples = 400000;      ///< per direction and point; decimate-draco, which has many points, takes a quarter
+  std::uint64_t seed = 1;
+  bool anchors = true;               ///< Draco on the input and decimate-then-Draco
+  /// Called with all that is measured so far after each method, so that an interrupt loses at most one of them.
+  std::function<void(const CurveRun&)> on_progress;
+};
+
 /// The main job on one surface: parameterize by every method on one base complex, remesh, encode once, decode at each
-/// budget, measure against the input; then the anchors.
+/// budget, measure against the input; then the anchors. Budgets that do not hold a stream's header are left out.
+/// Throws what its stages throw.
 CurveRun rate_distortion_curve(const Mesh& mesh, const std::string& model, const CurveOptions& options, Progress& progress);
+
+/// The budgets of a stream: those wanted (or 256, 512, 1024, ...) that hold its header and are shorter than it, and the
+/// whole of it last.
+std::vector<std::size_t> byte_budgets(const std::vector<std::size_t>& wanted, std::size_t header, std::size_t whole);
 
 }  // namespace gsp

@@ -1,0 +1,64 @@
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/options.h"
+#include "cli/report.h"
+#include "coder/codec.h"
+#include "experiments/targets.h"
+#include "mesh/atomic_file.h"
+#include "remesh/semiregular_file.h"
+
+namespace gsp::cli {
+
+namespace {
+
+struct Options {
+  std::string mesh, output;
+  std::string wavelet = "loop";
+  EncodeOptions encode;
+  std::size_t bytes = 0;
+  double psnr = 0.0;
+};
+
+int run_encode(const Options& options, Context& context) {
+  Progress progress = context.console.progress();
+  const SemiregularMesh mesh = read_semiregular(options.mesh);
+  Bytes stream = encode(mesh, options.encode, progress);
+  const std::size_t header = header_bytes(stream), whole = stream.size();
+  if (options.bytes > 0 && options.bytes < header)
+    throw Error(Cause::BadOption, "the header alone takes " + std::to_string(header) + " bytes");
+  if (options.bytes > 0 && options.bytes < whole) stream.resize(options.bytes);
+  if (options.psnr > 0.0) stream.resize(prefix_for_psnr(stream, mesh, options.psnr, progress));
+
+  AtomicFile file(options.output);
+  file.stream().write(reinterpret_cast<const char*>(stream.data()), static_cast<std::streamsize>(stream.size()));
+  file.commit();
+  print_report(context, {{"wavelet", options.wavelet},
+                         {"level", mesh.level},
+                         {"vertices", mesh.positions.size()},
+                         {"bytes", stream.size()},
+                         {"header_bytes", header},
+                         {"whole_stream_bytes", whole},
+                         {"output", options.output}});
+  return 0;
+}
+
+}  // namespace
+
+void add_encode(CLI::App& app, Context& context) {
+  Command command(app, context, "encode", "a semi-regular mesh as an embedded stream");
+  auto options = std::make_shared<Options>();
+  command.argument("MESH", options->mesh, "semi-regular mesh: *.sr.ply");
+  command.output("STREAM", options->output, "the stream, *.pgc");
+  command.encode_options(options->wavelet, options->encode);
+  command.size("--bytes", options->bytes, 0, std::numeric_limits<std::size_t>::max(),
+               "cut the stream after N bytes; 0 keeps all of it");
+  constexpr double kMostPsnr = 300.0;
+  command.number("--psnr", options->psnr, 0.0, kMostPsnr,
+                 "cut it where the decoded mesh is X dB from the one encoded; 0 keeps all of it");
+  command.exclude("--psnr", "--bytes");
+  command.on_run([options, &context] { return run_encode(*options, context); });
+}
+
+}  // namespace gsp::cli

@@ -1,0 +1,182 @@
+#include "cli/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <limits>
+
+namespace gsp::cli {
+
+namespace {
+
+constexpr Method kMethods[] = {Method::Gsp, Method::Maps, Method::MapsSmoothed};
+
+template <class T>
+bool parse(const std::string& text, T& value) {
+  return CLI::detail::lexical_cast(text, value);
+}
+
+template <class T>
+std::string range_of(T low, T high) {
+  if (high == std::numeric_limits<T>::max()) return fmt::format("at least {}", low);
+  return fmt::format("{} to {}", low, high);
+}
+
+// Why a text is no value in [low, high], empty where it is one. CLI11's own Range accepts NaN.
+template <class T>
+std::string refusal(const std::string& text, T low, T high, const std::string& range) {
+  T value{};
+  if (parse(text, value) && value >= low && value <= high) return {};
+  return fmt::format("{} is not {}", text, range);
+}
+
+std::string refusal(const std::string& word, const std::vector<std::string>& words) {
+  if (std::find(words.begin(), words.end(), word) != words.end()) return {};
+  return fmt::format("{} is none of {}", word, fmt::join(words, ", "));
+}
+
+// Default and range stand in the text instead of CLI11's "TYPE=value" column.
+template <class T>
+void add_bounded(CLI::App& app, const std::string& name, T& value, T low, T high, const std::string& text) {
+  const std::string range = range_of(low, high);
+  app.add_option(name, value, fmt::format("{} [{}; {}]", text, value, range))
+      ->check([=](const std::string& given) { return refusal(given, low, high, range); })
+      ->option_text(std::is_floating_point_v<T> ? "X" : "N");
+}
+
+}  // namespace
+
+Command::Command(CLI::App& app, Context& context, const std::string& name, const std::string& text)
+    : app_(app.add_subcommand(name, text)), context_(context) {
+  flag("--json", context.json, "print the result as JSON");
+  flag("-q,--quiet", context.console.quiet, "say nothing but errors");
+  flag("--verbose", context.console.verbose, "show every remark, such as each rejected candidate");
+  constexpr int kMostThreads = 1024;
+  integer("--threads", context.threads, 0, kMostThreads,
+          "threads, 0 for all cores; the result is the same bits for any number");
+}
+
+void Command::argument(const std::string& place, std::string& value, const std::string& text) {
+  app_->add_option(place, value, text)->required()->option_text(" ");
+}
+
+void Command::arguments(const std::string& place, std::vector<std::string>& values, const std::string& text) {
+  app_->add_option(place, values, text)->required()->option_text("...");
+}
+
+void Command::output(const std::string& place, std::string& value, const std::string& text) {
+  app_->add_option("-o,--output", value, text + " (required)")->required()->option_text(place);
+}
+
+void Command::optional_file(const std::string& name, std::string& value, const std::string& text) {
+  app_->add_option(name, value, text + " [none]")->option_text("FILE");
+}
+
+void Command::flag(const std::string& name, bool& value, const std::string& text) { app_->add_flag(name, value, text); }
+
+void Command::integer(const std::string& name, int& value, int low, int high, const std::string& text) {
+  add_bounded(*app_, name, value, low, high, text);
+}
+
+void Command::size(const std::string& name, std::size_t& value, std::size_t low, std::size_t high,
+                   const std::string& text) {
+  add_bounded(*app_, name, value, low, high, text);
+}
+
+void Command::number(const std::string& name, double& value, double low, double high, const std::string& text) {
+  add_bounded(*app_, name, value, low, high, text);
+}
+
+void Command::integer_or_auto(const std::string& name, int& value, int automatic, int low, int high,
+                              const std::string& text) {
+  const std::string range = range_of(low, high);
+  const auto set = [&value, automatic](const std::string& word) {
+    if (!parse(word, value)) value = automatic;
+  };
+  app_->add_option_function<std::string>(
+          name, set, fmt::format("{} [{}; {} or auto]", text, value == automatic ? "auto" : std::to_string(value), range))
+      ->check([=](const std::string& word) {
+        return word == "auto" ? std::string() : refusal(word, low, high, range + " or auto");
+      })
+      ->option_text("N|auto");
+}
+
+void Command::choice(const std::string& name, std::string& value, const std::vector<std::string>& words,
+                     const std::string& text) {
+  app_->add_option(name, value, fmt::format("{} [{}; {}]", text, value, fmt::join(words, ", ")))
+      ->check([words](const std::string& word) { return refusal(word, words); })
+      ->option_text("WORD");
+}
+
+void Command::choices(const std::string& name, std::vector<std::string>& values, const std::vector<std::string>& words,
+                      const std::string& text) {
+  app_->add_option(name, values, fmt::format("{} [{}; {}]", text, fmt::join(values, ","), fmt::join(words, ", ")))
+      ->delimiter(',')
+      ->check([words](const std::string& word) { return refusal(word, words); })
+      ->option_text("WORD,...");
+}
+
+void Command::sizes(const std::string& name, std::vector<std::size_t>& values, const std::string& text) {
+  constexpr std::size_t kLow = 1, kHigh = std::numeric_limits<std::size_t>::max();
+  app_->add_option(name, values, text)
+      ->delimiter(',')
+      ->check([](const std::string& given) { return refusal(given, kLow, kHigh, range_of(kLow, kHigh)); })
+      ->option_text("N,...");
+}
+
+void Command::exclude(const std::string& name, const std::string& other) {
+  app_->get_option(name)->excludes(app_->get_option(other));
+}
+
+void Command::footer(const std::string& text) { app_->footer(text); }
+
+void Command::on_run(std::function<int()> action) {
+  app_->callback([&context = context_, action = std::move(action)] { context.action = action; });
+}
+
+void Command::parameterize_options(ParameterizeOptions& options) {
+  constexpr double kMostWeight = 1e6;
+  constexpr int kMostRelaxations = 1000;
+  integer_or_auto("--base-vertices", options.base_vertices, 0, 4, std::numeric_limits<int>::max(),
+                  "base vertices to stop at; auto stops before metric distortion dominates the cost");
+  number("--gamma", options.gamma, 0.0, kMostWeight, "weight of triangle shape in the cost");
+  number("--mu", options.mu, 0.0, kMostWeight, "weight of area dispersion in the cost");
+  integer("--relaxations", options.relaxations, 0, kMostRelaxations, "rounds of solve and corner relaxation at most");
+}
+
+void Command::level_option(RemeshOptions& options) {
+  constexpr int kFinest = 10;
+  integer_or_auto("--level", options.level, RemeshOptions::kAutoLevel, 0, kFinest,
+                  "quadrisections of the base; auto is the first level with as many faces as the input");
+}
+
+void Command::encode_options(std::string& wavelet, EncodeOptions& options) {
+  choice("--wavelet", wavelet, {wavelet_name(Wavelet::Loop)}, "wavelet transform");
+  integer("--precision-bits", options.precision_bits, 8, 24,
+          "bits of the finest step relative to the bounding box: where the whole stream ends");
+  app_->add_option("--tangential-ratio", options.tangential_ratio,
+                   fmt::format("step of tangential over normal components [{}; 1, 2, 4, 8]", options.tangential_ratio))
+      ->check([](const std::string& given) { return refusal(given, {"1", "2", "4", "8"}); })
+      ->option_text("N");
+}
+
+void Command::sampling_options(std::size_t& samples, std::uint64_t& seed) {
+  constexpr std::size_t kFewest = 1000, kMost = 1'000'000'000;
+  size("--samples", samples, kFewest, kMost, "samples per direction");
+  size("--seed", seed, 0, std::numeric_limits<std::uint64_t>::max(), "seed of the samples");
+}
+
+std::vector<std::string> method_words() {
+  std::vector<std::string> words;
+  for (Method method : kMethods) words.emplace_back(method_name(method));
+  return words;
+}
+
+Method method_of(const std::string& word) {
+  for (Method method : kMethods)
+    if (word == method_name(method)) return method;
+  throw Error(Cause::BadOption, "unknown method " + word);
+}
+
+}  // namespace gsp::cli

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "coder/codec.h"
+#include "param/parameterize.h"
+#include "remesh/remesh.h"
+
+namespace gsp::cli {
+
+/// One subcommand and its options, over CLI11 (whose headers take eleven seconds to compile and stay in options.cpp and
+/// run.cpp). Every value lives in the caller; its value at the time of the call is the default that --help shows.
+/// A value outside its range, or NaN, is refused before the command starts.
+class Command {
+ public:
+  /// Adds a subcommand with the options that all of them have: --json, --quiet, --verbose, --threads.
+  Command(CLI::App& app, Context& context, const std::string& name, const std::string& text);
+
+  /// A required argument without a dash, shown as PLACE.
+  void argument(const std::string& place, std::string& value, const std::string& text);
+  void arguments(const std::string& place, std::vector<std::string>& values, const std::string& text);
+  /// The required -o, --output.
+  void output(const std::string& place, std::string& value, const std::string& text);
+  void optional_file(const std::string& name, std::string& value, const std::string& text);
+  void flag(const std::string& name, bool& value, const std::string& text);
+  void integer(const std::string& name, int& value, int low, int high, const std::string& text);
+  void size(const std::string& name, std::size_t& value, std::size_t low, std::size_t high, const std::string& text);
+  void number(const std::string& name, double& value, double low, double high, const std::string& text);
+  /// An integer in [low, high], or the word auto, which stands for `automatic`.
+  void integer_or_auto(const std::string& name, int& value, int automatic, int low, int high, const std::string& text);
+  /// One of a few words.
+  void choice(const std::string& name, std::string& value, const std::vector<std::string>& words, const std::string& text);
+  /// Several of a few words, separated by commas.
+  void choices(const std::string& name, std::vector<std::string>& values, const std::vector<std::string>& words,
+               const std::string& text);
+  /// Positive sizes, separated by commas.
+  void sizes(const std::string& name, std::vector<std::size_t>& values, const std::string& text);
+  /// Of two options only one may be given.
+  void exclude(const std::string& name, const std::string& other);
+  /// What --help ends with.
+  void footer(const std::string& text);
+  /// What the command does when all its options are right.
+  void on_run(std::function<int()> action);
+
+  // The options of a stage, the same wherever the stage is run.
+  void parameterize_options(ParameterizeOptions& options);
+  void level_option(RemeshOptions& options);
+  void encode_options(std::string& wavelet, EncodeOptions& options);
+  void sampling_options(std::size_t& samples, std::uint64_t& seed);
+
+ private:
+  CLI::App* app_;
+  Context& context_;
+};
+
+/// The words of --method, and the method that one stands for.
+std::vector<std::string> method_words();
+Method method_of(const std::string& word);
+
+}  // namespace gsp::cli

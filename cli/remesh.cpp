@@ -1,0 +1,53 @@
+#include "remesh/remesh.h"
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/options.h"
+#include "cli/report.h"
+#include "experiments/targets.h"
+#include "param/param_file.h"
+#include "remesh/semiregular_file.h"
+
+namespace gsp::cli {
+
+namespace {
+
+struct Options {
+  std::string map, output;
+  std::string kind = "parametric";
+  RemeshOptions remesh;
+  double max_error = 0.0;
+};
+
+int run_remesh(const Options& options, Context& context) {
+  Progress progress = context.console.progress();
+  const Parameterization map = read_parameterization(options.map);
+  const SemiregularMesh result = options.max_error > 0.0 ? remesh_to_error(map, options.max_error, progress)
+                                                         : remesh(map, options.remesh, progress);
+  write_semiregular(options.output, result);
+  print_report(context, {{"level", result.level},
+                         {"vertices", result.positions.size()},
+                         {"faces", result.base_faces.size() << (2 * result.level)},
+                         {"base_vertices", result.base_vertices},
+                         {"base_faces", result.base_faces.size()},
+                         {"output", options.output}});
+  return 0;
+}
+
+}  // namespace
+
+void add_remesh(CLI::App& app, Context& context) {
+  Command command(app, context, "remesh", "a semi-regular mesh sampled through a map");
+  auto options = std::make_shared<Options>();
+  command.argument("MAP", options->map, "map: *.param.ply");
+  command.output("MESH", options->output, "the mesh, *.sr.ply");
+  command.level_option(options->remesh);
+  command.number("--max-error", options->max_error, 0.0, 1.0,
+                 "instead of a level: the first whose RMS distance over the diagonal is at most X; 0 leaves it to --level");
+  command.exclude("--max-error", "--level");
+  command.choice("--kind", options->kind, {"parametric"}, "where the samples lie");
+  command.on_run([options, &context] { return run_remesh(*options, context); });
+}
+
+}  // namespace gsp::cli

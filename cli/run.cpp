@@ -1,0 +1,93 @@
+#include "cli/run.h"
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "cli/command.h"
+#include "cli/report.h"
+#include "cli/suggest.h"
+#include "experiments/version.h"
+#include "mesh/parallel.h"
+
+namespace gsp::cli {
+
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kWrongUsage = 2;
+
+void add_commands(CLI::App& app, Context& context) {
+  app.set_version_flag("--version", std::string("gsp ") + version());
+  app.require_subcommand(1);
+  app.footer(
+      "Exit status: 0 done, 1 failed, 2 wrong usage, 3 unusable input, 130 interrupted.\n"
+      "Data go to standard output, progress and errors to standard error. gsp COMMAND --help lists a command's options.");
+  for (auto* add : {add_curve, add_info, add_parameterize, add_remesh, add_encode, add_decode, add_distance, add_distortion})
+    add(app, context);
+}
+
+// What was typed that no command knows, with the word that was probably meant; empty where all was known.
+std::string unknown_word(CLI::App& app) {
+  const std::vector<CLI::App*> chosen = app.get_subcommands();
+  CLI::App& command = chosen.empty() ? app : *chosen.front();
+  std::vector<std::string> rest = app.remaining(true);
+  if (rest.empty()) return {};
+  // An option explains what follows it.
+  const auto option = std::find_if(rest.begin(), rest.end(), [](const std::string& word) { return word[0] == '-'; });
+  const std::string word = option != rest.end() ? option->substr(0, option->find('=')) : rest.front();
+  std::vector<std::string> known;
+  if (option != rest.end()) {
+    for (const CLI::Option* o : command.get_options())
+      for (const std::string& name : o->get_lnames()) known.push_back("--" + name);
+  } else if (chosen.empty()) {
+    for (const CLI::App* c : app.get_subcommands({})) known.push_back(c->get_name());
+  }
+  const std::string meant = nearest_word(word, known);
+  const char* kind = option != rest.end() ? "unknown option " : chosen.empty() ? "unknown command " : "unexpected argument ";
+  return kind + word + (meant.empty() ? "" : "; did you mean " + meant + "?");
+}
+
+int usage_error(CLI::App& app, const CLI::ParseError& error, Context& context) {
+  const std::string unknown = unknown_word(app);
+  context.console.error("gsp: " + (unknown.empty() ? std::string(error.what()) : unknown));
+  const std::vector<CLI::App*> chosen = app.get_subcommands();
+  context.console.error("gsp " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help lists what there is");
+  return kWrongUsage;
+}
+
+int act(Context& context) {
+  try {
+    set_thread_count(context.threads);
+    return context.action();
+  } catch (const Error& error) {
+    context.console.error(std::string("gsp: ") + error.what());
+    if (context.json) print_report(context, {{"error", error_report(error)}});
+    return error.cause() == Cause::Cancelled && interrupted() ? kInterruptedStatus : exit_status(error.cause());
+  } catch (const std::bad_alloc&) {
+    context.console.error("gsp: not enough memory");
+  } catch (const std::exception& error) {
+    context.console.error(std::string("gsp: ") + error.what());
+  }
+  return kFailed;
+}
+
+}  // namespace
+
+int run(const std::vector<std::string>& args, std::ostream& out, std::ostream& err) {
+  Context context{.out = out, .console = Console(err), .action = {}};
+  CLI::App app("gsp: globally smooth parameterizations, judged by rate-distortion curves", "gsp");
+  try {
+    add_commands(app, context);
+    app.parse(std::vector<std::string>(args.rbegin(), args.rend()));
+  } catch (const CLI::Success& request) {
+    return app.exit(request, out, err);
+  } catch (const CLI::ParseError& error) {
+    return usage_error(app, error, context);
+  }
+  return act(context);
+}
+
+}  // namespace gsp::cli

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/curve.h"
+
+namespace gsp {
+
+/// One panel: a model and its points.
+using PlotPanel = std::pair<std::string, std::vector<CurvePoint>>;
+
+/// The gnuplot program that draws panels side by side to NAME.png and NAME.svg in its working folder: PSNR over bytes
+/// (logarithmic), one line a method, remeshing ceilings dashed. The data stand in it, so it can be restyled and run again.
+std::string plot_script(const std::string& name, const std::vector<PlotPanel>& panels);
+
+/// Writes FOLDER/NAME.gp and runs gnuplot on it; returns the names of the files made.
+/// Throws Error: ToolMissing where gnuplot is absent or fails, CannotWrite.
+std::vector<std::string> plot(const std::string& folder, const std::string& name, const std::vector<PlotPanel>& panels);
+
+}  // namespace gsp

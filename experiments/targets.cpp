@@ -1,0 +1,54 @@
+#include "experiments/targets.h"
+
+#include <fmt/format.h>
+
+#include "metrics/surface_distance.h"
+#include "remesh/remesh.h"
+
+namespace gsp {
+
+namespace {
+
+// A target needs a few hundredths of a decibel, not a published figure.
+constexpr DistanceOptions kRuler{.samples = 200000, .seed = 1};
+
+}  // namespace
+
+SemiregularMesh remesh_to_error(const Parameterization& map, double max_error, Progress& progress) {
+  if (!(max_error > 0.0)) throw Error(Cause::BadOption, "the largest error must be positive");
+  constexpr long long kMostFaces = 64'000'000;
+  constexpr int kMostLevels = 10;
+  const SurfaceTree tree(map.surface);
+  Progress silent;
+  double error = 0.0;
+  long long faces = map.base.face_count();
+  for (int level = 0; level <= kMostLevels && faces <= kMostFaces; ++level, faces *= 4) {
+    SemiregularMesh result = remesh(map, {.level = level}, progress);
+    const SurfaceDistance distance = surface_distance(map.surface, tree, result.mesh(), kRuler, silent);
+    error = distance.rms() / distance.diagonal;
+    progress.note(fmt::format("level {}: error {:.3g} of the diagonal", level, error));
+    if (error <= max_error) return result;
+  }
+  throw Error(Cause::BadOption, fmt::format("no level reaches an error of {:.3g}; the finest has {:.3g}", max_error, error));
+}
+
+std::size_t prefix_for_psnr(const Bytes& stream, const SemiregularMesh& original, double psnr_db, Progress& progress) {
+  const Mesh reference = original.mesh();
+  const SurfaceTree tree(reference);
+  Progress silent;
+  std::size_t low = header_bytes(stream), high = stream.size();
+  const auto reaches = [&](std::size_t bytes) {
+    return surface_distance(reference, tree, decode(stream, bytes).mesh(), kRuler, silent).psnr_db() >= psnr_db;
+  };
+  if (reaches(low)) return low;
+  // Invariant: `low` bytes are too few, `high` bytes are enough or all there are.
+  const double whole = static_cast<double>(high - low);
+  while (high - low > high / 100 + 1) {
+    progress.report("search the prefix", 1.0 - static_cast<double>(high - low) / whole);
+    const std::size_t middle = low + (high - low) / 2;
+    (reaches(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+}  // namespace gsp

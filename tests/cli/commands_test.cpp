@@ -1,0 +1,186 @@
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli.h"
+#include "mesh/io.h"
+#include "mesh/shapes.h"
+#include "temporary_folder.h"
+
+using namespace gsp;
+using nlohmann::json;
+
+namespace {
+
+// A bumpy sphere: small, closed, and not so regular that a stage could get away with nothing to do.
+std::string write_bumpy(const TemporaryFolder& folder) {
+  Mesh mesh = shapes::sphere(4);
+  for (Vec3& p : mesh.positions) p *= 1.0 + 0.15 * std::sin(4.0 * p.x()) * std::cos(3.0 * p.y() + p.z());
+  const std::string path = folder.file("bumpy.ply");
+  write_mesh(path, mesh);
+  return path;
+}
+
+std::size_t size_of(const std::string& path) { return static_cast<std::size_t>(std::filesystem::file_size(path)); }
+
+std::size_t files_in(const TemporaryFolder& folder) {
+  std::size_t count = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("info describes a usable surface with status 0, for people and for programs") {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("torus.off");
+  write_mesh(path, shapes::torus(12, 8));
+  const Ran text = gsp_run({"info", path});
+  CHECK(text.status == 0);
+  CHECK(contains(text.out, "genus 1"));
+  const Ran ran = gsp_run({"info", path, "--json"});
+  CHECK(ran.status == 0);
+  const json report = json::parse(ran.out);
+  CHECK(report["program"] == "gsp");
+  CHECK(report["vertices"] == 96);
+  CHECK(report["faces"] == 192);
+  CHECK(report["components"] == 1);
+  CHECK(report["component_list"][0]["genus"] == 1);
+  CHECK(report["usable"] == true);
+}
+
+TEST_CASE("info says why a surface cannot be used, with the place, and status 3") {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("fan.off");
+  std::ofstream(path) << "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 4\n";
+  const Ran ran = gsp_run({"info", path, "--json"});
+  CHECK(ran.status == 3);
+  const json report = json::parse(ran.out);
+  CHECK(report["usable"] == false);
+  CHECK(report["refusal"]["cause"] == "non-manifold-edge");
+  CHECK_FALSE(report["refusal"]["message"].get<std::string>().empty());
+  CHECK(contains(gsp_run({"info", path}).out, "non-manifold-edge"));
+  const Ran refused = gsp_run({"parameterize", path, "-o", folder.file("map.param.ply")});
+  CHECK(refused.status == 3);
+  CHECK(contains(refused.err, "gsp: "));
+  CHECK_FALSE(std::filesystem::exists(folder.file("map.param.ply")));
+}
+
+TEST_CASE("every command that reads a file refuses one that is not there with status 3") {
+  const TemporaryFolder folder;
+  const std::string missing = folder.file("missing.ply"), output = folder.file("output.ply");
+  for (const std::vector<std::string>& args : std::vector<std::vector<std::string>>{{"info", missing},
+                                                                                    {"parameterize", missing, "-o", output},
+                                                                                    {"remesh", missing, "-o", output},
+                                                                                    {"encode", missing, "-o", output},
+                                                                                    {"decode", missing, "-o", output},
+                                                                                    {"distance", missing, missing},
+                                                                                    {"distortion", missing}}) {
+    CAPTURE(args.front());
+    CHECK(gsp_run(args).status == 3);
+  }
+  CHECK(files_in(folder) == 0);
+}
+
+TEST_CASE("the chain of commands: surface, map, remesh, stream, prefix, distance") {
+  const TemporaryFolder folder;
+  const std::string mesh = write_bumpy(folder), map = folder.file("map.param.ply"), remeshed = folder.file("r.sr.ply"),
+                    stream = folder.file("c.pgc"), decoded = folder.file("d.sr.ply"), omega = folder.file("omega.csv");
+
+  const Ran made =
+      gsp_run({"parameterize", mesh, "-o", map, "--base-vertices", "40", "--omega-csv", omega, "--check", "--json"});
+  CAPTURE(made.err);
+  REQUIRE(made.status == 0);
+  const json report = json::parse(made.out);
+  CHECK(report["base_vertices"] == 40);
+  CHECK(report["base_faces"] == 76);
+  CHECK(report["check"]["valid"] == true);
+  CHECK(size_of(omega) > 100);
+
+  const Ran distortion = gsp_run({"distortion", map, "--json", "--per-face", folder.file("faces.csv")});
+  REQUIRE(distortion.status == 0);
+  const json measured = json::parse(distortion.out);
+  CHECK(measured["check"]["flipped_faces"] == 0);
+  CHECK(measured["anisotropy"]["mean"] >= 1.0);
+  CHECK(size_of(folder.file("faces.csv")) > 1000);
+
+  const Ran sampled = gsp_run({"remesh", map, "-o", remeshed, "--json"});
+  REQUIRE(sampled.status == 0);
+  CHECK(json::parse(sampled.out)["faces"] == 76 * 256);
+
+  const Ran coded = gsp_run({"encode", remeshed, "-o", stream, "--json"});
+  REQUIRE(coded.status == 0);
+  CHECK(json::parse(coded.out)["bytes"] == size_of(stream));
+
+  const auto psnr = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> args = {"decode", stream, "-o", decoded};
+    args.insert(args.end(), options.begin(), options.end());
+    REQUIRE(gsp_run(args).status == 0);
+    const Ran ran = gsp_run({"distance", remeshed, decoded, "--samples", "20000", "--json"});
+    REQUIRE(ran.status == 0);
+    return json::parse(ran.out)["psnr_db"].get<double>();
+  };
+  const double whole = psnr({}), part = psnr({"--bytes", "2000"});
+  CHECK(whole > 80.0);
+  CHECK(part > 35.0);
+  CHECK(part < whole);
+
+  SECTION("a byte budget is kept, and a target PSNR is reached with fewer bytes than the whole") {
+    const std::string cut = folder.file("cut.pgc");
+    REQUIRE(gsp_run({"encode", remeshed, "-o", cut, "--bytes", "1500"}).status == 0);
+    CHECK(size_of(cut) == 1500);
+    REQUIRE(gsp_run({"encode", remeshed, "-o", cut, "--psnr", "55"}).status == 0);
+    CHECK(size_of(cut) < size_of(stream) / 2);
+    REQUIRE(gsp_run({"decode", cut, "-o", decoded}).status == 0);
+    const Ran ran = gsp_run({"distance", remeshed, decoded, "--json"});
+    CHECK(json::parse(ran.out)["psnr_db"].get<double>() > 54.9);
+  }
+  SECTION("the first level under an error is found") {
+    const Ran ran = gsp_run({"remesh", map, "-o", remeshed, "--max-error", "0.001", "--json"});
+    REQUIRE(ran.status == 0);
+    const int level = json::parse(ran.out)["level"];
+    CHECK((level >= 1 && level <= 4));
+    const Ran never = gsp_run({"encode", remeshed, "-o", folder.file("x.pgc"), "--bytes", "5"});
+    CHECK(never.status == 2);
+    CHECK_FALSE(std::filesystem::exists(folder.file("x.pgc")));
+  }
+}
+
+TEST_CASE("a stream that is none is unusable input") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("noise.pgc")) << std::string(500, 'x');
+  CHECK(gsp_run({"decode", folder.file("noise.pgc"), "-o", folder.file("d.ply")}).status == 3);
+  std::ofstream(folder.file("empty.pgc")) << "";
+  CHECK(gsp_run({"decode", folder.file("empty.pgc"), "-o", folder.file("d.ply")}).status == 3);
+  CHECK_FALSE(std::filesystem::exists(folder.file("d.ply")));
+}
+
+TEST_CASE("output that cannot be written is a failure, status 1") {
+  const TemporaryFolder folder;
+  const std::string mesh = write_bumpy(folder);
+  CHECK(gsp_run({"parameterize", mesh, "-o", folder.file("no/such/folder/map.param.ply"), "--base-vertices", "40"}).status == 1);
+}
+
+TEST_CASE("an error is JSON too where JSON is asked for") {
+  const Ran ran = gsp_run({"distance", "missing-a.ply", "missing-b.ply", "--json"});
+  CHECK(ran.status == 3);
+  CHECK(json::parse(ran.out)["error"]["cause"] == "cannot-open");
+}
+
+TEST_CASE("curve draws what works, names what fails, and ends with status 1 for it") {
+  const TemporaryFolder folder, output;
+  const std::string good = write_bumpy(folder), bad = folder.file("bad.off");
+  std::ofstream(bad) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 nan\n3 0 1 2\n";
+  const std::string to = output.file("curves");
+  const Ran ran = gsp_run({"curve", bad, good, "-o", to, "--samples", "5000", "--base-vertices", "30", "--json"});
+  CAPTURE(ran.err);
+  CHECK(ran.status == 1);
+  const json report = json::parse(ran.out);
+  CHECK(report["models"][0]["error"]["cause"].is_string());
+  CHECK_FALSE(report["models"][1].contains("error"));
+  CHECK(report["models"][1]["methods"][0]["method"] == "gsp");
+  CHECK(report["models"][1]["methods"].size() == 4);
+  for (const char* name : {"curve.csv", "bumpy.png", "bumpy.svg", "bumpy-omega.csv"}) CHECK(size_of(to + "/" + name) > 200);
+  for (const auto& file : report["files"]) CHECK(std::filesystem::exists(file.get<std::string>()));
+}

@@ -1,0 +1,108 @@
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "experiments/anchor_curves.h"
+#include "experiments/curve_csv.h"
+#include "experiments/curve_job.h"
+#include "experiments/plot.h"
+#include "experiments/version.h"
+#include "temporary_folder.h"
+
+using namespace gsp;
+
+namespace {
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream in(line);
+  for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
+  return fields;
+}
+
+CurvePoint sample_point(const std::string& model, const std::string& method, std::size_t bytes, double psnr) {
+  CurvePoint point;
+  point.model = model;
+  point.method = method;
+  point.bytes = bytes;
+  point.psnr_db = psnr;
+  point.remesh_error = method == "gsp" ? 1e-4 : 0.0;
+  return point;
+}
+
+}  // namespace
+
+TEST_CASE("curve.csv has the columns of the design and one row per point") {
+  const TemporaryFolder folder;
+  write_curve_csv(folder.file("curve.csv"), {sample_point("horse", "gsp", 1024, 60.5)});
+  std::ifstream in(folder.file("curve.csv"));
+  std::string header, row, rest;
+  std::getline(in, header);
+  std::getline(in, row);
+  CHECK_FALSE(std::getline(in, rest));
+  const auto names = split(header), fields = split(row);
+  REQUIRE(names.size() == fields.size());
+  for (const char* name : {"model", "method", "gamma", "mu", "base_vertices", "base_faces", "level", "wavelet", "coder",
+                           "bytes", "bits_per_vertex", "rms_forward", "rms_backward", "rms", "hausdorff", "psnr_db",
+                           "samples", "standard_error_db", "remesh_error", "seed", "version"})
+    CHECK(std::count(names.begin(), names.end(), name) == 1);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == "bytes") CHECK(fields[i] == "1024");
+    if (names[i] == "psnr_db") CHECK(fields[i] == "60.5000");
+    if (names[i] == "version") CHECK(fields[i] == version());
+  }
+}
+
+TEST_CASE("a model's name with a comma or a quote stays one field") {
+  const TemporaryFolder folder;
+  write_curve_csv(folder.file("curve.csv"), {sample_point("a,\"b", "gsp", 1, 1.0)});
+  std::ifstream in(folder.file("curve.csv"));
+  std::string row;
+  std::getline(in, row);
+  std::getline(in, row);
+  CHECK(row.rfind("\"a,\"\"b\",gsp,", 0) == 0);
+}
+
+TEST_CASE("budgets hold the header, stay under the stream and end with the whole of it") {
+  CHECK(byte_budgets({}, 300, 3000) == std::vector<std::size_t>{512, 1024, 2048, 3000});
+  CHECK(byte_budgets({}, 10, 1024) == std::vector<std::size_t>{256, 512, 1024});
+  CHECK(byte_budgets({100, 700, 5000}, 200, 3000) == std::vector<std::size_t>{700, 3000});
+  CHECK(byte_budgets({}, 50, 100) == std::vector<std::size_t>{100});
+}
+
+TEST_CASE("decimation sizes descend from half the faces by even ratios") {
+  const std::vector<int> sizes = decimation_sizes(97000);
+  REQUIRE(sizes.size() > 12);
+  CHECK(sizes.front() == 48500);
+  CHECK(sizes.back() >= 64);
+  CHECK(sizes.back() < 100);
+  for (std::size_t i = 1; i < sizes.size(); ++i) CHECK(sizes[i] < sizes[i - 1]);
+  CHECK(decimation_sizes(100).empty());
+}
+
+TEST_CASE("a plot draws strange names, and names the files it made") {
+  const TemporaryFolder folder;
+  const std::string model = "it's a_model{x}";
+  const std::vector<CurvePoint> points = {sample_point(model, "gsp", 256, 40), sample_point(model, "gsp", 4096, 60),
+                                          sample_point(model, "draco", 4096, 30), sample_point(model, "draco", 90000, 70)};
+  const auto files = plot(folder.path().string(), "figure", {{model, points}, {"second", points}});
+  REQUIRE(files.size() == 3);
+  for (const std::string& file : files) CHECK(std::filesystem::file_size(folder.file(file)) > 500);
+  std::size_t entries = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) ++entries;
+  CHECK(entries == files.size());
+}
+
+TEST_CASE("folders stand for the surfaces in them, in name order") {
+  const TemporaryFolder folder;
+  for (const char* name : {"b.ply", "a.OFF", "notes.txt", "c.stl"}) std::ofstream(folder.file(name)) << "x";
+  const auto files = surface_files({"single.obj", folder.path().string()});
+  REQUIRE(files.size() == 4);
+  CHECK(files[0] == "single.obj");
+  CHECK(files[1] == folder.file("a.OFF"));
+  CHECK(files[2] == folder.file("b.ply"));
+  CHECK(files[3] == folder.file("c.stl"));
+  const TemporaryFolder empty;
+  CHECK_THROWS_AS(surface_files({empty.path().string()}), Error);
+}
