@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "remesh/develop.h"
+
+namespace gsp {
+
+/// Where on the surface a lattice point of a chart lies: in a face, at the weights of its three corners.
+struct SurfacePoint {
+  int face = -1;  ///< -1: none found
+  /// To choose among several faces: the smallest weight; less `kFlipped` in a flipped face; less `kNear` where the face
+  /// does not hold the point but is near it.
+  double fit = 0.0;
+  std::array<double, 3> weights = {0.0, 0.0, 0.0};
+
+  static constexpr double kFlipped = 4.0;
+  static constexpr double kNear = 8.0;
+
+  bool better_than(const SurfacePoint& other) const {
+    if (face < 0 || other.face < 0) return face >= 0;
+    return fit != other.fit ? fit > other.fit : face < other.face;
+  }
+};
+
+/// Place of lattice point (i, j) among the (n+1)(n+2)/2 of a chart's triangle, row by row.
+inline std::size_t lattice_index(int n, int i, int j) { return static_cast<std::size_t>(j) * (2 * n + 3 - j) / 2 + i; }
+
+/// The faces over one chart, sampled at the points (i + jω) / n, i, j >= 0, i + j <= n, of its triangle.
+class ChartSamples {
+ public:
+  /// `pieces`: those of this chart; kept by reference, as is `map`. Scan conversion in lattice coordinates, borders
+  /// included, so that a point between two faces is always found; the best fit wins, then the smallest face index.
+  /// O(pieces + samples).
+  ChartSamples(const Parameterization& map, const std::vector<FacePiece>& pieces, int n);
+
+  /// Points that no face holds, as a map with folds leaves them, take the nearest place in the faces of the points around
+  /// them, spreading inward. They stay without a face where the whole chart is.
+  void fill_gaps();
+
+  const SurfacePoint& at(int i, int j) const { return samples_[lattice_index(n_, i, j)].point; }
+
+ private:
+  struct Sample {
+    SurfacePoint point;
+    int piece = -1;
+  };
+
+  void scan(int piece);
+  Sample nearest_around(int i, int j) const;
+  SurfacePoint nearest_in(int piece, Complex z) const;
+
+  const Parameterization& map_;
+  const std::vector<FacePiece>& pieces_;
+  int n_;
+  std::vector<Sample> samples_;
+};
+
+}  // namespace gsp

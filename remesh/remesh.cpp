@@ -1,0 +1,179 @@
+#include "remesh/remesh.h"
+
+#include <algorithm>
+#include <climits>
+#include <string>
+
+#include "mesh/error.h"
+#include "mesh/parallel.h"
+#include "remesh/chart_samples.h"
+#include "remesh/develop.h"
+
+namespace gsp {
+
+namespace {
+
+int chosen_level(const Parameterization& map, const RemeshOptions& options) {
+  int level = options.level;
+  if (level == RemeshOptions::kAutoLevel) {
+    level = 0;
+    while (level < kMaxSubdivisionLevel && (static_cast<long long>(map.base.face_count()) << (2 * level)) <
+                                               static_cast<long long>(map.surface.face_count()))
+      ++level;
+  }
+  if (level < 0 || level > kMaxSubdivisionLevel)
+    throw Error(Cause::BadOption, "remeshing level " + std::to_string(level) + " is not in 0.." +
+                                      std::to_string(kMaxSubdivisionLevel));
+  // Half-edges of the finest level are counted in int.
+  if ((static_cast<long long>(map.base.face_count()) << (2 * level)) > INT_MAX / 3)
+    throw Error(Cause::BadOption, "a remesh of level " + std::to_string(level) + " has too many faces to number");
+  return level;
+}
+
+/// The pieces of all faces, by chart and within one by face.
+std::vector<std::vector<FacePiece>> pieces_by_chart(const Parameterization& map) {
+  constexpr std::size_t kBlock = 4096;
+  const std::size_t faces = map.surface.faces.size();
+  std::vector<std::vector<FacePiece>> blocks((faces + kBlock - 1) / kBlock);
+  parallel_for(faces, kBlock, [&](std::size_t begin, std::size_t end) {
+    std::vector<FacePiece>& pieces = blocks[begin / kBlock];
+    for (std::size_t f = begin; f < end; ++f) develop_face(map, static_cast<int>(f), pieces);
+  });
+  std::vector<int> count(map.base.faces.size(), 0);
+  for (const auto& block : blocks)
+    for (const FacePiece& piece : block) ++count[piece.chart];
+  std::vector<std::vector<FacePiece>> charts(map.base.faces.size());
+  for (std::size_t c = 0; c < charts.size(); ++c) charts[c].reserve(count[c]);
+  for (const auto& block : blocks)
+    for (const FacePiece& piece : block) charts[piece.chart].push_back(piece);
+  return charts;
+}
+
+/// Lattice coordinates, weights of corners 1 and 2 times 2^level, of the three corners of face `index` among those that
+/// quadrisecting a base face makes, by the numbering rule of semiregular.h.
+std::array<std::array<int, 2>, 3> lattice_corners(int level, int index) {
+  const int n = 1 << level;
+  std::array<std::array<int, 2>, 3> c = {{{0, 0}, {n, 0}, {0, n}}};
+  for (int l = level - 1; l >= 0; --l) {
+    const auto middle = [&](int a, int b) { return std::array<int, 2>{(c[a][0] + c[b][0]) / 2, (c[a][1] + c[b][1]) / 2}; };
+    const auto ab = middle(0, 1), bc = middle(1, 2), ca = middle(2, 0);
+    switch ((index >> (2 * l)) & 3) {
+      case 0: c = {c[0], ab, ca}; break;
+      case 1: c = {ab, c[1], bc}; break;
+      case 2: c = {ca, bc, c[2]}; break;
+      default: c = {ab, bc, ca};
+    }
+  }
+  return c;
+}
+
+Vec3 position(const Mesh& surface, const SurfacePoint& point) {
+  const Triangle& t = surface.faces[point.face];
+  Vec3 sum = Vec3::Zero();
+  for (int k = 0; k < 3; ++k)
+    if (point.weights[k] > 0.0) sum += point.weights[k] * surface.positions[t[k]];
+  return sum;
+}
+
+/// Remeshing in progress: the finest connectivity, the positions, and what the charts found on their borders.
+class Remesher {
+ public:
+  Remesher(const Parameterization& map, int level)
+      : map_(map), level_(level), n_(1 << level), borders_(3 * map.base.faces.size()), gaps_(map.base.faces.size(), 0) {
+    SubdivisionLevel finest = base_level(map.base.vertex_count(), map.base.faces);
+    for (int l = 0; l < level; ++l) finest = subdivide(finest);
+    faces_ = std::move(finest.faces);
+    positions_.assign(finest.vertex_count, Vec3::Zero());
+    for (int b = 0; b < map.base.vertex_count(); ++b) positions_[b] = map.surface.positions[map.base.vertices[b]];
+  }
+
+  void sample_chart(int chart, const std::vector<FacePiece>& pieces) {
+    ChartSamples samples(map_, pieces, n_);
+    samples.fill_gaps();
+    const std::vector<int> vertices = chart_vertices(chart);
+    const auto vertex = [&](int i, int j) { return vertices[lattice_index(n_, i, j)]; };
+    for (int j = 1; j < n_; ++j)
+      for (int i = 1; i + j < n_; ++i) set(chart, vertex(i, j), samples.at(i, j));
+    for (int s = 1; s < n_; ++s) {
+      borders_[3 * chart].push_back({vertex(s, 0), samples.at(s, 0)});
+      borders_[3 * chart + 1].push_back({vertex(n_ - s, s), samples.at(n_ - s, s)});
+      borders_[3 * chart + 2].push_back({vertex(0, n_ - s), samples.at(0, n_ - s)});
+    }
+  }
+
+  /// Points on base edges, from whichever side found them better.
+  void merge_borders() {
+    for (int h = 0; h < static_cast<int>(borders_.size()); ++h) {
+      const int twin = map_.base.twins[h];
+      if (twin >= 0 && twin < h) continue;
+      for (int s = 1; s < n_; ++s) {
+        SurfacePoint best = borders_[h][s - 1].point;
+        if (twin >= 0 && borders_[twin][n_ - s - 1].point.better_than(best)) best = borders_[twin][n_ - s - 1].point;
+        set(h / 3, borders_[h][s - 1].vertex, best);
+      }
+    }
+  }
+
+  int gaps() const {
+    int sum = 0;
+    for (int gap : gaps_) sum += gap;
+    return sum;
+  }
+
+  SemiregularMesh take() {
+    return {level_, map_.base.vertex_count(), map_.base.faces, std::move(positions_)};
+  }
+
+ private:
+  void set(int chart, int vertex, const SurfacePoint& point) {
+    if (point.face < 0) throw Error(Cause::InvalidMap, "no face of the surface covers a base face", Element::Face, chart);
+    if (point.fit < -SurfacePoint::kNear) ++gaps_[chart];
+    positions_[vertex] = position(map_.surface, point);
+  }
+
+  /// #samples, the remesh's vertex at each lattice point of a chart.
+  std::vector<int> chart_vertices(int chart) const {
+    std::vector<int> vertices(static_cast<std::size_t>(n_ + 1) * (n_ + 2) / 2, -1);
+    for (int f = 0; f < 1 << (2 * level_); ++f) {
+      const auto corners = lattice_corners(level_, f);
+      const Triangle& face = faces_[(static_cast<std::size_t>(chart) << (2 * level_)) + f];
+      for (int k = 0; k < 3; ++k) vertices[lattice_index(n_, corners[k][0], corners[k][1])] = face[k];
+    }
+    return vertices;
+  }
+
+  const Parameterization& map_;
+  int level_, n_;
+  std::vector<Triangle> faces_;
+  std::vector<Vec3> positions_;
+  struct BorderSample {
+    int vertex;
+    SurfacePoint point;
+  };
+  std::vector<std::vector<BorderSample>> borders_;  ///< by half-edge of the base, along it
+  std::vector<int> gaps_;
+};
+
+}  // namespace
+
+SemiregularMesh remesh(const Parameterization& map, const RemeshOptions& options, Progress& progress) {
+  require_well_formed(map);
+  if (map.base.faces.empty()) throw Error(Cause::InvalidMap, "a map without base faces has nothing to remesh");
+  const int level = chosen_level(map, options);
+  progress.report("remesh", 0.0);
+  const std::vector<std::vector<FacePiece>> pieces = pieces_by_chart(map);
+  progress.report("remesh", 0.3);
+  Remesher remesher(map, level);
+  parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) remesher.sample_chart(static_cast<int>(c), pieces[c]);
+  });
+  progress.report("remesh", 0.9);
+  remesher.merge_borders();
+  if (remesher.gaps() > 0)
+    progress.note(std::to_string(remesher.gaps()) +
+                  " points of the remesh lie in no face of the map, which has folds; the nearest place was taken");
+  progress.report("remesh", 1.0);
+  return remesher.take();
+}
+
+}  // namespace gsp
