@@ -24,10 +24,11 @@ struct Distortion {
   int degenerate_faces = 0;          ///< no area on the surface: left out of the statistics
 };
 
-/// Flipped faces count into `flipped_faces` and enter the statistics by their absolute area. O(F).
+/// Flipped faces count into `flipped_faces` and enter the statistics by their absolute area; faces without area in their
+/// chart count as flipped and have no values. O(F log F).
 Distortion distortion(const Parameterization& map);
 
-/// #F Γ_a and Γ_d per face (singular values), for pictures; 0 for degenerate faces.
+/// #F Γ_a and Γ_d per face (singular values), for pictures; 0 for faces without area on the surface or in the chart.
 struct FaceDistortion {
   std::vector<double> anisotropy;
   std::vector<double> area;
