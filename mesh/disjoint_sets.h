@@ -38,11 +38,11 @@ class DisjointSets {
   void compress(int x) {
     // To the root once for the sign, once more to hang everything passed directly under it.
     int root = x;
-    char sign = 0;
+    unsigned char sign = 0;
     for (; parent_[root] != root; root = parent_[root]) sign ^= odd_[root];
     while (parent_[x] != root && x != root) {
       const int next = parent_[x];
-      const char own = odd_[x];
+      const unsigned char own = odd_[x];
       parent_[x] = root;
       odd_[x] = sign;
       sign ^= own;
@@ -51,7 +51,7 @@ class DisjointSets {
   }
 
   std::vector<int> parent_;
-  std::vector<char> odd_;
+  std::vector<unsigned char> odd_;
 };
 
 }  // namespace gsp

@@ -1,37 +1,22 @@
 #include "mesh/halfedges.h"
 
-#include <algorithm>
-#include <cstdint>
+#include "mesh/edge_groups.h"
 
 namespace gsp {
 
 Halfedges::Halfedges(const Mesh& mesh) : twin(3 * mesh.faces.size(), -1), outgoing(mesh.positions.size(), -1) {
   faces = mesh.faces.data();
-  // Half-edges grouped by their smaller end vertex: a counting sort that needs no hash and no comparison over all edges.
-  const int count = static_cast<int>(twin.size());
-  std::vector<int> start(mesh.positions.size() + 1, 0);
-  for (int h = 0; h < count; ++h) ++start[std::min(from(h), to(h)) + 1];
-  for (std::size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
-  std::vector<int> grouped(count);
-  {
-    std::vector<int> fill(start.begin(), start.end() - 1);
-    for (int h = 0; h < count; ++h) grouped[fill[std::min(from(h), to(h))]++] = h;
-  }
-  for (std::size_t v = 0; v + 1 < start.size(); ++v) {
-    const auto larger = [&](int h) { return std::max(from(h), to(h)); };
-    std::sort(grouped.begin() + start[v], grouped.begin() + start[v + 1], [&](int a, int b) {
-      return larger(a) != larger(b) ? larger(a) < larger(b) : a < b;
-    });
-    for (int i = start[v]; i + 1 < start[v + 1]; ++i) {
-      const int a = grouped[i], b = grouped[i + 1];
-      if (larger(a) == larger(b) && from(a) != from(b)) {
-        twin[a] = b;
-        twin[b] = a;
-        ++i;
-      }
+  const EdgeGroups edges(mesh);
+  for (int e = 0; e < edges.size(); ++e) {
+    const std::span<const int> halves = edges[e];
+    for (std::size_t i = 0; i + 1 < halves.size(); ++i) {
+      if (from(halves[i]) == from(halves[i + 1])) continue;
+      twin[halves[i]] = halves[i + 1];
+      twin[halves[i + 1]] = halves[i];
+      ++i;
     }
   }
-  for (int h = 0; h < count; ++h) {
+  for (int h = 0; h < static_cast<int>(twin.size()); ++h) {
     const int v = from(h);
     if (outgoing[v] < 0 || twin[h] < 0) outgoing[v] = h;
   }

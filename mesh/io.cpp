@@ -3,7 +3,6 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <ostream>
 #include <utility>
@@ -104,9 +103,9 @@ void write_stl(std::ostream& out, const Mesh& mesh) {
     if (mesh.positions[v].cwiseAbs().maxCoeff() > std::numeric_limits<float>::max())
       throw Error(Cause::CannotWrite, "a coordinate is too large for STL's single precision", Element::Vertex, v);
   // The header must not begin with "solid", by which readers tell the ASCII kind.
-  std::array<char, 80> header{};
-  std::strcpy(header.data(), "binary STL by gsp");
-  out.write(header.data(), header.size());
+  std::string header = "binary STL by gsp";
+  header.resize(80);
+  out << header;
   const auto count = static_cast<std::uint32_t>(mesh.face_count());
   out.write(reinterpret_cast<const char*>(&count), sizeof count);
   for (const Triangle& t : mesh.faces) {

@@ -1,3 +1,4 @@
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -41,9 +42,8 @@ Mesh parse_off(std::string_view bytes) {
     text.fail(Cause::UnknownFormat, "binary OFF files are not supported");
   else
     text.put_back(word.size());
-  constexpr std::size_t kShortestVertex = 6, kShortestFace = 2;  // "0 0 0\n", "0\n"
-  const std::size_t vertices = parse_count(text, "vertices", kShortestVertex);
-  const std::size_t faces = parse_count(text, "faces", kShortestFace);
+  const std::size_t vertices = parse_count(text, "vertices", std::strlen("0 0 0\n"));
+  const std::size_t faces = parse_count(text, "faces", std::strlen("0\n"));
   text.skip_line();  // the number of edges, which nobody keeps right
 
   require_countable(vertices, faces);

@@ -20,6 +20,8 @@ const PlyProperty* corner_list(const PlyElement& element) {
   if (!p) p = element.list("vertex_index");
   if (!p && element.count > 0)
     throw Error(Cause::Malformed, "the PLY element " + element.name + " has no list vertex_indices");
+  if (p && p->type >= PlyType::Float32)
+    throw Error(Cause::Malformed, "the PLY list " + p->name + " is not of whole numbers");
   return p;
 }
 
@@ -44,7 +46,7 @@ void for_each_row(const PlyElement& element, Add&& add) {
     corners.clear();
     for (std::size_t i = list->starts[row]; i < list->starts[row + 1]; ++i) {
       const double value = list->values[i];
-      // A list of floating-point numbers may hold anything; what is no index becomes one that is out of range.
+      // An ASCII file may hold larger numbers than its types: they become an index that is out of range.
       corners.push_back(value >= -2147483648.0 && value <= 4294967295.0 ? static_cast<long long>(value) : -2);
     }
     add(std::span<const long long>(corners));

@@ -21,7 +21,7 @@ enum class Encoding { Ascii, LittleEndian, BigEndian };
 constexpr std::size_t kUsualListLength = 3;
 
 std::optional<PlyType> type_named(std::string_view name) {
-  static constexpr std::array<std::pair<std::string_view, PlyType>, 16> names = {{
+  static constexpr std::array<std::pair<std::string_view, PlyType>, 16> kNames = {{
       {"char", PlyType::Int8},
       {"int8", PlyType::Int8},
       {"uchar", PlyType::Uint8},
@@ -39,7 +39,7 @@ std::optional<PlyType> type_named(std::string_view name) {
       {"double", PlyType::Float64},
       {"float64", PlyType::Float64},
   }};
-  for (const auto& [known, type] : names)
+  for (const auto& [known, type] : kNames)
     if (known == name) return type;
   return std::nullopt;
 }

@@ -22,7 +22,12 @@ std::string read_file(const std::string& path) {
   if (!in) return fail(std::strerror(errno));
   const auto size = std::filesystem::file_size(path, code);
   if (code) return fail(code.message());
-  std::string bytes(size, '\0');
+  std::string bytes;
+  try {
+    bytes.resize(size);
+  } catch (const std::exception&) {
+    return fail(std::to_string(size) + " bytes do not fit into memory");
+  }
   in.read(bytes.data(), static_cast<std::streamsize>(size));
   bytes.resize(static_cast<std::size_t>(in.gcount()));
   return bytes;

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 84;
 constexpr std::size_t kFacetBytes = 50;
+constexpr std::size_t kNormalBytes = 12;
 
 bool equals_ignoring_case(std::string_view token, std::string_view word) {
   return std::equal(token.begin(), token.end(), word.begin(), word.end(),
@@ -54,7 +55,6 @@ Mesh parse_binary(std::string_view bytes) {
   soup.positions.reserve(3 * count);
   soup.faces.reserve(count);
   for (std::size_t f = 0; f < count; ++f) {
-    constexpr std::size_t kNormalBytes = 12;
     std::size_t at = kHeaderBytes + kFacetBytes * f + kNormalBytes;
     for (int corner = 0; corner < 3; ++corner) {
       Vec3 p;

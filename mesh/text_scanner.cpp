@@ -17,6 +17,16 @@ std::string_view without_plus(std::string_view token) {
   return token;
 }
 
+/// For messages: hostile text is cut short and made printable.
+std::string quoted(std::string_view token) {
+  constexpr std::size_t longest = 24;
+  std::string text(token.substr(0, longest));
+  if (token.size() > longest) text += "...";
+  for (char& c : text)
+    if (c < ' ' || c > '~') c = '?';
+  return '"' + text + '"';
+}
+
 }  // namespace
 
 bool parse_number(std::string_view token, double& value) {
@@ -74,7 +84,7 @@ double TextScanner::number() {
   const std::string_view token = next();
   double value;
   if (token.empty()) fail(Cause::Truncated, "the file ends where a number should be");
-  if (!parse_number(token, value)) fail(Cause::Malformed, "a number should be here");
+  if (!parse_number(token, value)) fail(Cause::Malformed, quoted(token) + " is not a number");
   return value;
 }
 
@@ -82,7 +92,7 @@ long long TextScanner::integer() {
   const std::string_view token = next();
   long long value;
   if (token.empty()) fail(Cause::Truncated, "the file ends where a whole number should be");
-  if (!parse_integer(token, value)) fail(Cause::Malformed, "a whole number should be here");
+  if (!parse_integer(token, value)) fail(Cause::Malformed, quoted(token) + " is not a whole number");
   return value;
 }
 

@@ -126,7 +126,7 @@ TEST_CASE("an error names the file and the line or face") {
     CHECK(error.cause() == Cause::Malformed);
     CHECK(error.element() == Element::Line);
     CHECK(error.index() == 4);
-    CHECK(std::string(error.what()) == path + ": a number should be here (line 4)");
+    CHECK(std::string(error.what()) == path + ": \"x\" is not a number (line 4)");
   }
   std::ofstream(path) << "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 3\n";
   try {
