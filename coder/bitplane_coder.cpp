@@ -82,16 +82,19 @@ class BitplaneCoder {
       known_.details[c].negative.assign(nodes, 0);
       known_.details[c].low_plane.assign(nodes, layout.detail_planes);
       descendants_[c].assign(nodes, 0);
+      descendants_low_plane_[c].assign(nodes, layout.detail_planes);
     }
     if (actual) find_largest_descendants();
   }
 
   void run() {
-    for (int plane = std::max(layout_.base_planes, layout_.detail_planes) - 1; plane >= 0; --plane) {
-      if (plane < layout_.base_planes) base_pass(plane);
-      if (plane >= layout_.detail_planes) continue;
+    const int top = kPassesPerPlane * std::max(layout_.base_planes, layout_.detail_planes) - 1 + kMaxUrgency;
+    for (int pass = top; pass >= kMaxUrgency; --pass) {
+      if (pass % kPassesPerPlane == kPassesPerPlane - 1) urgency_ = layout_.urgency(known_);
+      const int base_plane = (pass + kPassesPerPlane - 1) / kPassesPerPlane;
+      if (pass % kPassesPerPlane == 0 && base_plane < layout_.base_planes) base_pass(base_plane);
       for (int level = 0; level < forest_.levels(); ++level)
-        for (int c = 0; c < 3; ++c) detail_pass(plane, level, c);
+        for (int c = 0; c < 3; ++c) detail_pass(pass, level, c);
     }
   }
 
@@ -146,19 +149,33 @@ class BitplaneCoder {
     }
   }
 
-  void detail_pass(int plane, int level, int c) {
+  void detail_pass(int pass, int level, int c) {
     auto& known = known_.details[c];
     for (int n = forest_.level_begin[level]; n < forest_.level_begin[level + 1]; ++n) {
-      const int parent = forest_.parent[n];
-      if (parent >= 0 && !descendants_[c][parent]) continue;
-      const bool last = level + 1 == forest_.levels();
-      if (known.magnitude[n] != 0)
-        refine(plane, level, c, n);
-      else
-        find_significant(plane, level, c, n);
-      known.low_plane[n] = plane;
-      if (!last && !descendants_[c][n]) find_descendants(plane, level, c, n);
+      const int last = (pass - urgency_[n] + kPassesPerPlane - 1) / kPassesPerPlane;
+      while (known.low_plane[n] > last) {
+        const int plane = known.low_plane[n] - 1;
+        const int parent = forest_.parent[n];
+        if (parent < 0 || has_descendants(plane, level - 1, c, parent)) {
+          if (known.magnitude[n] != 0)
+            refine(plane, level, c, n);
+          else
+            find_significant(plane, level, c, n);
+        }
+        known.low_plane[n] = plane;
+      }
     }
+  }
+
+  /// Whether a descendant of `n` is significant at `plane`, asked from the stream where it is not known yet.
+  bool has_descendants(int plane, int level, int c, int n) {
+    std::uint8_t& low_plane = descendants_low_plane_[c][n];
+    while (!descendants_[c][n] && low_plane > plane) {
+      const int parent = forest_.parent[n];
+      if (parent < 0 || has_descendants(low_plane - 1, level - 1, c, parent)) find_descendants(low_plane - 1, level, c, n);
+      --low_plane;
+    }
+    return descendants_[c][n];
   }
 
   /// Sum over the same-level neighbours' magnitudes in quarters of the threshold.
@@ -234,7 +251,9 @@ class BitplaneCoder {
   Side& side_;
   BitplaneCoefficients known_;
   std::array<std::vector<std::uint8_t>, 3> descendants_;  ///< 1 once a descendant is significant
+  std::array<std::vector<std::uint8_t>, 3> descendants_low_plane_;  ///< planes from here up are known to have none before
   std::array<std::vector<std::uint32_t>, 3> largest_;
+  std::vector<std::int8_t> urgency_;
 
   ContextSet base_a_{16}, base_b_{16 * 8}, base_c_{32}, base_d_{8 * 32};
   Mixer<kInputs> base_mixer_;

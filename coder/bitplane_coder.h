@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "coder/edge_forest.h"
@@ -24,14 +25,26 @@ struct BitplaneCoefficients {
   std::array<Component, 3> details;
 };
 
+/// Fractions of a bit-plane in which bits are ordered.
+inline constexpr int kPassesPerPlane = 4;
+/// Largest offset of a node's bits against the order of planes.
+inline constexpr int kMaxUrgency = 2 * kPassesPerPlane;
+
+/// #N in 1/kPassesPerPlane of a plane: how much earlier than others a node's bits are worth sending, within
+/// +-kMaxUrgency. A function of what is known so far, which both sides evaluate at the same places of the stream.
+using Urgency = std::function<std::vector<std::int8_t>(const BitplaneCoefficients& known)>;
+
 /// What encoder and decoder must agree on besides the forest.
 struct BitplaneLayout {
   int base_planes = 0;    ///< bits of a base coordinate, 0..31
   int detail_planes = 0;  ///< bits of the largest detail magnitude, 0..31
   std::vector<std::vector<int>> base_neighbours;  ///< #B, adjacent base vertices
+  Urgency urgency;
 };
 
-/// Appends the embedded stream to `out`: planes from the top; in each the base positions, then the details level by level.
+/// Appends the embedded stream to `out`: bits in the order of their plane and their node's urgency; in each pass the base
+/// positions first, then the details level by level. A node's bits end at plane (kMaxUrgency - urgency) / kPassesPerPlane,
+/// so that all end at the same importance.
 void encode_bitplanes(const EdgeForest& forest, const BitplaneLayout& layout, const BitplaneCoefficients& coefficients,
                       Bytes& out);
 

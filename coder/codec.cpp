@@ -9,6 +9,7 @@
 #include "coder/coded_order.h"
 #include "coder/edge_forest.h"
 #include "coder/header.h"
+#include "coder/importance.h"
 #include "coder/local_frames.h"
 #include "coder/quantizer.h"
 #include "coder/wavelet_transform.h"
@@ -37,17 +38,46 @@ void check(const SemiregularMesh& mesh, const EncodeOptions& options) {
     if (!used[v]) throw Error(Cause::Malformed, "a base vertex belongs to no face", Element::Vertex, v);
 }
 
-BitplaneLayout bitplane_layout(const StreamHeader& header, const SubdivisionLevel& base) {
-  BitplaneLayout layout;
-  layout.base_planes = header.base_planes;
-  layout.detail_planes = header.detail_planes;
-  layout.base_neighbours.resize(base.vertex_count);
-  for (const auto& [a, b] : base.edges) {
-    layout.base_neighbours[a].push_back(b);
-    layout.base_neighbours[b].push_back(a);
+/// Everything that encoder and decoder derive from the header alone.
+struct Structure {
+  const StreamHeader& header;
+  std::vector<SubdivisionLevel> levels;
+  EdgeForest forest;
+  WaveletTransform transform;
+
+  explicit Structure(const StreamHeader& h)
+      : header(h),
+        levels(subdivision_levels(h.base.vertices, h.base.faces, h.level)),
+        forest(levels),
+        transform(levels) {}
+
+  /// Positions of level `level` from what is known of the coefficients.
+  std::vector<Vec3> reconstruct(const BitplaneCoefficients& known, int level) const {
+    std::vector<Vec3> positions = dequantize_base(known, header);
+    for (int l = 0; l < level; ++l) {
+      const std::vector<Frame> frames = edge_frames(levels[l], positions);
+      std::vector<Vec3> details = dequantize_details(known, forest, l, header);
+      for (std::size_t e = 0; e < frames.size(); ++e) details[e] = frames[e] * details[e];
+      positions = transform.synthesis(l, positions, details);
+    }
+    return positions;
   }
-  return layout;
-}
+
+  BitplaneLayout layout() const {
+    BitplaneLayout layout;
+    layout.base_planes = header.base_planes;
+    layout.detail_planes = header.detail_planes;
+    layout.base_neighbours.resize(levels[0].vertex_count);
+    for (const auto& [a, b] : levels[0].edges) {
+      layout.base_neighbours[a].push_back(b);
+      layout.base_neighbours[b].push_back(a);
+    }
+    layout.urgency = [this](const BitplaneCoefficients& known) {
+      return area_urgency(levels, forest, reconstruct(known, std::min(kAreaLevel, header.level)));
+    };
+    return layout;
+  }
+};
 
 }  // namespace
 
@@ -67,27 +97,25 @@ Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress
   header.level = mesh.level;
   Bytes connectivity;
   header.base = encode_connectivity(mesh.base_faces, connectivity);
-  const SemiregularMesh coded = in_coded_order(mesh, header.base);
-  const std::vector<SubdivisionLevel> levels = subdivision_levels(coded.base_vertices, coded.base_faces, coded.level);
+  const Structure structure(header);
 
   progress.report("wavelet analysis", 0.1);
-  const WaveletTransform transform(levels);
-  std::vector<Vec3> positions = coded.positions;
-  std::vector<std::vector<Vec3>> details(coded.level);
-  for (int l = coded.level - 1; l >= 0; --l) {
-    WaveletTransform::Split split = transform.analysis(l, positions);
-    const std::vector<Frame> frames = edge_frames(levels[l], split.coarse);
+  std::vector<Vec3> positions = in_coded_order(mesh, header.base).positions;
+  std::vector<std::vector<Vec3>> details(mesh.level);
+  for (int l = mesh.level - 1; l >= 0; --l) {
+    WaveletTransform::Split split = structure.transform.analysis(l, positions);
+    const std::vector<Frame> frames = edge_frames(structure.levels[l], split.coarse);
     for (std::size_t e = 0; e < frames.size(); ++e) split.details[e] = frames[e].transpose() * split.details[e];
     details[l] = std::move(split.details);
     positions = std::move(split.coarse);
-    progress.report("wavelet analysis", 0.8 - 0.7 * l / coded.level);
+    progress.report("wavelet analysis", 0.8 - 0.7 * l / mesh.level);
   }
 
   progress.report("entropy coding", 0.8);
-  const EdgeForest forest(levels);
-  const BitplaneCoefficients integers = quantize(positions, details, bounding_box_diagonal(mesh.mesh()), options.precision_bits, header);
+  const double diagonal = bounding_box_diagonal(mesh.mesh());
+  const BitplaneCoefficients integers = quantize(positions, details, diagonal, options.precision_bits, header);
   Bytes bytes = write_header(header, connectivity);
-  encode_bitplanes(forest, bitplane_layout(header, levels[0]), integers, bytes);
+  encode_bitplanes(structure.forest, structure.layout(), integers, bytes);
   progress.report("entropy coding", 1.0);
   return bytes;
 }
@@ -101,22 +129,14 @@ SemiregularMesh decode(const Bytes& stream, std::size_t budget) {
     throw Error(Cause::Truncated, "a coded mesh needs at least its header of " + std::to_string(needed) + " bytes");
   const StreamHeader header = read_header(begin, begin + stream.size());
 
+  const Structure structure(header);
+  const BitplaneCoefficients known = decode_bitplanes(structure.forest, structure.layout(), begin + needed,
+                                                      begin + std::min(budget, stream.size()));
   SemiregularMesh mesh;
   mesh.level = header.level;
   mesh.base_vertices = header.base.vertices;
   mesh.base_faces = header.base.faces;
-  const std::vector<SubdivisionLevel> levels = subdivision_levels(mesh.base_vertices, mesh.base_faces, mesh.level);
-  const EdgeForest forest(levels);
-  const BitplaneCoefficients integers = decode_bitplanes(forest, bitplane_layout(header, levels[0]), begin + needed,
-                                                         begin + std::min(budget, stream.size()));
-  const WaveletTransform transform(levels);
-  mesh.positions = dequantize_base(integers, header);
-  for (int l = 0; l < mesh.level; ++l) {
-    const std::vector<Frame> frames = edge_frames(levels[l], mesh.positions);
-    std::vector<Vec3> details = dequantize_details(integers, forest, l, header);
-    for (std::size_t e = 0; e < frames.size(); ++e) details[e] = frames[e] * details[e];
-    mesh.positions = transform.synthesis(l, mesh.positions, details);
-  }
+  mesh.positions = structure.reconstruct(known, header.level);
   return mesh;
 }
 

@@ -12,6 +12,9 @@ namespace {
 constexpr double kScalingNorm = 0.5125;
 constexpr double kWaveletNorm = 0.374;
 
+/// Steps are that much finer than the precision asked for, so that urgent nodes can end finer than the others.
+constexpr int kSpareBits = kMaxUrgency / kPassesPerPlane;
+
 /// Normal details of level l insert vertices of spacing 2^-(l+1).
 double detail_step(const StreamHeader& header, int level) {
   return std::ldexp(1.0, header.step_exponent - (header.level - 1 - level));
@@ -58,7 +61,7 @@ std::vector<std::array<std::uint32_t, 3>> quantize_base(const std::vector<Vec3>&
 
 BitplaneCoefficients quantize(const std::vector<Vec3>& base, const std::vector<std::vector<Vec3>>& details, double diagonal,
                               int precision_bits, StreamHeader& header) {
-  header.step_exponent = diagonal > 0.0 ? static_cast<int>(std::floor(std::log2(diagonal))) - precision_bits : 0;
+  header.step_exponent = diagonal > 0.0 ? static_cast<int>(std::floor(std::log2(diagonal))) - precision_bits - kSpareBits : 0;
   BitplaneCoefficients integers;
   integers.base = quantize_base(base, header);
   std::uint32_t largest = 0;
