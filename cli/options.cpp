@@ -14,6 +14,8 @@ constexpr Method kMethods[] = {Method::Gsp, Method::Maps, Method::MapsSmoothed};
 
 template <class T>
 bool parse(const std::string& text, T& value) {
+  // CLI11 wraps -1 around for an unsigned type, as strtoull does.
+  if (std::is_unsigned_v<T> && text.find('-') != std::string::npos) return false;
   return CLI::detail::lexical_cast(text, value);
 }
 

@@ -29,25 +29,30 @@ void add_commands(CLI::App& app, Context& context) {
     add(app, context);
 }
 
+std::string meant(const std::string& word, const std::vector<std::string>& known) {
+  const std::string nearest = nearest_word(word, known);
+  return word + (nearest.empty() ? "" : "; did you mean " + nearest + "?");
+}
+
 // What was typed that no command knows, with the word that was probably meant; empty where all was known.
 std::string unknown_word(CLI::App& app) {
   const std::vector<CLI::App*> chosen = app.get_subcommands();
-  CLI::App& command = chosen.empty() ? app : *chosen.front();
-  std::vector<std::string> rest = app.remaining(true);
-  if (rest.empty()) return {};
-  // An option explains what follows it.
-  const auto option = std::find_if(rest.begin(), rest.end(), [](const std::string& word) { return word[0] == '-'; });
-  const std::string word = option != rest.end() ? option->substr(0, option->find('=')) : rest.front();
+  const std::vector<std::string> rest = app.remaining(true);
+  const auto is_option = [](const std::string& word) { return word[0] == '-'; };
+  const auto option = std::find_if(rest.begin(), rest.end(), is_option);
+  const auto word = std::find_if_not(rest.begin(), rest.end(), is_option);
   std::vector<std::string> known;
-  if (option != rest.end()) {
-    for (const CLI::Option* o : command.get_options())
-      for (const std::string& name : o->get_lnames()) known.push_back("--" + name);
-  } else if (chosen.empty()) {
-    for (const CLI::App* c : app.get_subcommands({})) known.push_back(c->get_name());
+  // Without a command its options are unknown too; with one, an unknown option explains what follows it.
+  if (chosen.empty() && word != rest.end()) {
+    for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+    return "unknown command " + meant(*word, known);
   }
-  const std::string meant = nearest_word(word, known);
-  const char* kind = option != rest.end() ? "unknown option " : chosen.empty() ? "unknown command " : "unexpected argument ";
-  return kind + word + (meant.empty() ? "" : "; did you mean " + meant + "?");
+  if (option != rest.end()) {
+    for (const CLI::Option* o : (chosen.empty() ? &app : chosen.front())->get_options())
+      for (const std::string& name : o->get_lnames()) known.push_back("--" + name);
+    return "unknown option " + meant(option->substr(0, option->find('=')), known);
+  }
+  return word == rest.end() ? std::string() : "unexpected argument " + *word;
 }
 
 int usage_error(CLI::App& app, const CLI::ParseError& error, Context& context) {

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "coder/anchors.h"
 #include "experiments/rate_curve.h"
+#include "mesh/parallel.h"
 
 namespace gsp {
 
@@ -12,11 +14,54 @@ namespace {
 
 // Enough to tell which of two combinations lies higher: the points that are kept are measured again.
 constexpr std::size_t kSamplesToChoose = 20000;
+constexpr int kFewestBits = 7, kMostBits = 12;  // of decimate-draco
 
 CurvePoint named(CurvePoint point, const char* method, int quantization_bits) {
   point.method = method;
   point.coder = "draco-qp" + std::to_string(quantization_bits);
   return point;
+}
+
+struct Candidate {
+  AnchorPoint anchor;
+  double psnr_db = -std::numeric_limits<double>::infinity();  // stays so where a coarse grid leaves no face
+};
+
+// One size at every quantization. Draco itself has one thread, so they run side by side.
+std::vector<Candidate> quantizations(const Meter& meter, const Mesh& decimated) {
+  std::vector<Candidate> row(kMostBits - kFewestBits + 1);
+  parallel_for(row.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      Progress silent;
+      AnchorPoint& anchor = row[k].anchor;
+      anchor = draco_round_trip(decimated, kFewestBits + static_cast<int>(k));
+      if (!anchor.decoded.faces.empty())
+        row[k].psnr_db = meter.measure(anchor.decoded, anchor.bytes, kSamplesToChoose, silent).psnr_db;
+    }
+  });
+  return row;
+}
+
+// Of all sizes and quantizations those on the upper envelope, by ascending bytes.
+std::vector<AnchorPoint> envelope_candidates(const Meter& meter, Progress& progress) {
+  const std::vector<Mesh> sizes = decimate(meter.mesh(), decimation_sizes(meter.mesh().face_count()), progress);
+  std::vector<Candidate> candidates;
+  RateCurve all;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    progress.report("decimate, then Draco: choose", static_cast<double>(i) / static_cast<double>(sizes.size()));
+    for (Candidate& candidate : quantizations(meter, sizes[i])) {
+      all.push_back({static_cast<double>(candidate.anchor.bytes), candidate.psnr_db});
+      candidates.push_back(std::move(candidate));
+    }
+  }
+  std::vector<AnchorPoint> kept;
+  for (const RatePoint& point : upper_envelope(all)) {
+    const auto candidate = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
+      return static_cast<double>(c.anchor.bytes) == point.bytes && c.psnr_db == point.psnr_db;
+    });
+    kept.push_back(std::move(candidate->anchor));
+  }
+  return kept;
 }
 
 }  // namespace
@@ -42,34 +87,11 @@ std::vector<int> decimation_sizes(int faces) {
 }
 
 std::vector<CurvePoint> decimate_draco_curve(const Meter& meter, std::size_t samples, Progress& progress) {
-  constexpr int kFirst = 7, kLast = 12;
-  Progress silent;
-  struct Candidate {
-    AnchorPoint anchor;
-    double psnr_db;
-  };
-  std::vector<Candidate> candidates;
-  RateCurve all;
-  const std::vector<Mesh> sizes = decimate(meter.mesh(), decimation_sizes(meter.mesh().face_count()), progress);
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    progress.report("decimate, then Draco", 0.5 * static_cast<double>(i) / static_cast<double>(sizes.size()));
-    for (int bits = kFirst; bits <= kLast; ++bits) {
-      AnchorPoint anchor = draco_round_trip(sizes[i], bits);
-      if (anchor.decoded.faces.empty()) continue;
-      const double psnr = meter.measure(anchor.decoded, anchor.bytes, kSamplesToChoose, silent).psnr_db;
-      all.push_back({static_cast<double>(anchor.bytes), psnr});
-      candidates.push_back({std::move(anchor), psnr});
-    }
-  }
+  const std::vector<AnchorPoint> kept = envelope_candidates(meter, progress);
   std::vector<CurvePoint> points;
-  const RateCurve envelope = upper_envelope(all);
-  for (const RatePoint& kept : envelope) {
-    progress.report("decimate, then Draco",
-                    0.5 + 0.5 * static_cast<double>(points.size()) / static_cast<double>(envelope.size()));
-    const auto candidate = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
-      return static_cast<double>(c.anchor.bytes) == kept.bytes && c.psnr_db == kept.psnr_db;
-    });
-    const AnchorPoint& anchor = candidate->anchor;
+  for (const AnchorPoint& anchor : kept) {
+    progress.report("decimate, then Draco: measure", static_cast<double>(points.size()) / static_cast<double>(kept.size()));
+    Progress silent;
     points.push_back(named(meter.measure(anchor.decoded, anchor.bytes, samples, silent), "decimate-draco",
                            anchor.quantization_bits));
   }

@@ -66,7 +66,7 @@ CurveRun rate_distortion_curve(const Mesh& mesh, const std::string& model, const
     append(method_curve(results[i], method_name(options.methods[i]), meter, options, progress));
   if (options.anchors) {
     append(draco_curve(meter, options.samples, progress));
-    append(decimate_draco_curve(meter, options.samples / 4, progress));
+    append(decimate_draco_curve(meter, options.samples / 2, progress));
   }
   return run;
 }

@@ -43,7 +43,7 @@ struct CurveOptions {
   RemeshOptions remesh;
   EncodeOptions encode;
   std::vector<std::size_t> budgets;  ///< bytes; empty: 256, 512, 1024, ... up to the whole stream
-  std::size_t samples = 400000;      ///< per direction and point; decimate-draco, which has many points, takes a quarter
+  std::size_t samples = 200000;      ///< per direction and point; decimate-draco, which has many points, takes half
   std::uint64_t seed = 1;
   bool anchors = true;               ///< Draco on the input and decimate-then-Draco
   /// Called with all that is measured so far after each method, so that an interrupt loses at most one of them.

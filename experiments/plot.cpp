@@ -61,6 +61,14 @@ std::pair<double, double> byte_range(const std::vector<CurvePoint>& points) {
   return {low, high};
 }
 
+// A little above the highest ceiling: Draco, which has none, would push everything else down.
+std::string highest_shown(const std::vector<CurvePoint>& points) {
+  double ceiling = 0.0;
+  for (const CurvePoint& p : points)
+    if (p.remesh_error > 0.0) ceiling = std::max(ceiling, -20.0 * std::log10(p.remesh_error));
+  return ceiling > 0.0 ? fmt::format("{:.1f}", ceiling + 3.0) : "*";
+}
+
 std::string byte_tics(double low, double high) {
   std::string tics;
   for (double bytes = 64.0; bytes <= 2.0 * high; bytes *= 4.0) {
@@ -104,8 +112,8 @@ std::string panel_commands(const PlotPanel& panel, std::size_t index) {
                            quoted(method + " remesh (ceiling)"));
   }
   const auto [low, high] = byte_range(points);
-  return fmt::format("set title {} noenhanced\nset xtics ({})\nset xrange [{:.0f}:{:.0f}]\nplot {}\n", quoted(model),
-                     byte_tics(low, high), low, high, lines);
+  return fmt::format("set title {} noenhanced\nset xtics ({})\nset xrange [{:.0f}:{:.0f}]\nset yrange [*:{}]\nplot {}\n",
+                     quoted(model), byte_tics(low, high), low, high, highest_shown(points), lines);
 }
 
 class ScratchFolder {
@@ -149,7 +157,7 @@ void run_gnuplot(const std::string& folder, const std::string& script) {
 std::string plot_script(const std::string& name, const std::vector<PlotPanel>& panels) {
   std::string script = fmt::format(
       "# Draws {0}.png and {0}.svg: run gnuplot on this file.\n"
-      "set logscale x 2\nset grid lc rgb '#dddddd'\nset key bottom right Left reverse noenhanced\n"
+      "set logscale x 2\nset grid back lt 1 lw 1 lc rgb '#e4e4e4'\nset key bottom right Left reverse noenhanced\n"
       "set xlabel 'bytes'\nset ylabel 'PSNR in dB (diagonal / RMS)'\n",
       name);
   std::string commands;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "metrics/surface_distance.h"
 #include "remesh/remesh.h"
 
@@ -35,16 +37,21 @@ SemiregularMesh remesh_to_error(const Parameterization& map, double max_error, P
 std::size_t prefix_for_psnr(const Bytes& stream, const SemiregularMesh& original, double psnr_db, Progress& progress) {
   const Mesh reference = original.mesh();
   const SurfaceTree tree(reference);
-  Progress silent;
-  std::size_t low = header_bytes(stream), high = stream.size();
   const auto reaches = [&](std::size_t bytes) {
+    Progress silent;
+    progress.report(fmt::format("search the prefix: {} bytes", bytes), 0.0);
     return surface_distance(reference, tree, decode(stream, bytes).mesh(), kRuler, silent).psnr_db() >= psnr_db;
   };
-  if (reaches(low)) return low;
+  // Doubled up from few bytes, because a first guess in the middle of a long stream is dear and far off. The header alone
+  // decodes to a mesh without extent, so the search starts a little above it.
+  constexpr std::size_t kFirstBytes = 64;
+  std::size_t low = header_bytes(stream), high = std::min(stream.size(), low + kFirstBytes);
+  while (high < stream.size() && !reaches(high)) {
+    low = high;
+    high = std::min(stream.size(), 2 * high);
+  }
   // Invariant: `low` bytes are too few, `high` bytes are enough or all there are.
-  const double whole = static_cast<double>(high - low);
   while (high - low > high / 100 + 1) {
-    progress.report("search the prefix", 1.0 - static_cast<double>(high - low) / whole);
     const std::size_t middle = low + (high - low) / 2;
     (reaches(middle) ? high : low) = middle;
   }
