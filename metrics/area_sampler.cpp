@@ -45,10 +45,9 @@ std::array<Cell, kCells> sierpinski_cells() {
 
 /// The point of the unit triangle at fraction r of its area along the curve; `random` places it within the last cell.
 std::array<double, 2> triangle_point(double r, std::uint32_t random) {
-  static const std::array<Cell, kCells> cells = sierpinski_cells();
-  const auto index = static_cast<std::uint32_t>(std::clamp(r, 0.0, 1.0 - 0x1.0p-25) * 0x1.0p24);
-  Cell cell = cells[(index >> 8) & 255].inside(cells[index >> 16]);
-  cell = cells[index & 255].inside(cell);
+  static const std::array<Cell, kCells> kTable = sierpinski_cells();
+  const auto index = static_cast<std::uint32_t>(std::clamp(r, 0.0, 1.0 - 0x1.0p-17) * 0x1.0p16);
+  const Cell cell = kTable[index & (kCells - 1)].inside(kTable[index >> kBisections]);
   double s = ((random >> 16) + 0.5) * 0x1.0p-16, t = ((random & 0xffff) + 0.5) * 0x1.0p-16;
   if (s + t > 1.0) {
     s = 1.0 - s;

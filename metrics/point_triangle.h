@@ -24,6 +24,12 @@ struct TriangleFrame {
 template <int G>
 struct PointGroup {
   alignas(64) double x[G], y[G], z[G];
+
+  void set(std::size_t i, const Vec3& p) {
+    x[i] = p.x();
+    y[i] = p.y();
+    z[i] = p.z();
+  }
 };
 
 /// nearest[i] = min(nearest[i], squared distance of point i to the triangle). No branches: about 60 operations a point.

@@ -38,24 +38,38 @@ struct Partial {
   double pair_variance = 0.0;  ///< Σ (d²_2i - d²_2i+1)² over pairs of neighbouring strata
 };
 
+/// A group is at most this many times as large as the triangle it is near; measured best from sparse to dense samples.
+constexpr double kGroupReach = 2.0;
+
+/// Squared distances of points that follow each other closely. Points are asked in groups as long as a group stays about
+/// as small as the triangle it is near: one walk through the tree then serves up to eight points, and where
+/// points are farther apart than the triangles each gets its own.
+void squared_distances(const TriangleTree& target, const Vec3* points, std::size_t count, double* squared) {
+  int hint = target.descend(points[0]);
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+    const double reach = kGroupReach * target.size(hint);
+    PointGroup<kGroupSize> group;
+    Vec3 low = points[begin], high = low;
+    for (; end < count && end - begin < kGroupSize; ++end) {
+      const Vec3& p = points[end];
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+      if (end > begin && (high - low).maxCoeff() > reach) break;
+      group.set(end - begin, p);
+    }
+    for (std::size_t i = end - begin; i < kGroupSize; ++i) group.set(i, points[end - 1]);
+    double nearest[kGroupSize];
+    target.nearest(group, nearest, hint);
+    std::copy(nearest, nearest + (end - begin), squared + begin);
+  }
+}
+
 Partial measure_block(const AreaSampler& sampler, const TriangleTree& target, std::size_t begin, std::size_t end) {
   std::array<Vec3, AreaSampler::kBlock> points;
   std::array<double, AreaSampler::kBlock> squared;
   const std::size_t count = end - begin;
   sampler.sample(begin, end, points.data());
-  int hint = target.descend(points[0]);
-  for (std::size_t i = 0; i < count; i += kGroupSize) {
-    PointGroup<kGroupSize> group;
-    double nearest[kGroupSize];
-    for (int j = 0; j < kGroupSize; ++j) {
-      const Vec3& p = points[std::min(i + j, count - 1)];
-      group.x[j] = p.x();
-      group.y[j] = p.y();
-      group.z[j] = p.z();
-    }
-    target.nearest(group, nearest, hint);
-    for (std::size_t j = 0; j < kGroupSize && i + j < count; ++j) squared[i + j] = nearest[j];
-  }
+  squared_distances(target, points.data(), count, squared.data());
   Partial sum;
   for (std::size_t i = 0; i < count; ++i) {
     sum.distance += std::sqrt(squared[i]);

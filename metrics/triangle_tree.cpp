@@ -28,6 +28,9 @@ constexpr float kOutward = 0x1.0p-22f;
 /// Queries farther out are moved onto this box around the tree: that only brings them nearer to everything inside.
 constexpr float kFarthest = 1e15f;
 
+/// Ranges up to four times this many entries are sorted to the end by one thread, within its cache.
+constexpr std::size_t kWithinCache = 4096;
+
 struct Entry {
   std::array<float, 3> centre;
   int face;
@@ -105,7 +108,6 @@ void TriangleTree::sort_places(const Mesh& mesh) {
   });
   std::size_t quarter = 1;
   while (4 * quarter < count) quarter *= 4;
-  constexpr std::size_t kWithinCache = 4096;
   for (; quarter > kWithinCache; quarter /= 4)
     parallel_for((count + 4 * quarter - 1) / (4 * quarter), 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t r = first; r < last; ++r)

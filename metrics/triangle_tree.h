@@ -8,7 +8,7 @@
 
 namespace gsp {
 
-/// Points that `TriangleTree::nearest` takes at once. Sixteen neighbouring samples share one walk through the tree.
+/// Points that `TriangleTree::nearest` takes at once, to share one walk through the tree.
 inline constexpr int kGroupSize = 8;
 
 /// Bounding volume hierarchy over the triangles of a mesh: a complete tree of four children a node over triangles sorted by
@@ -24,6 +24,8 @@ class TriangleTree {
   const std::vector<int>& order() const { return order_; }
   /// Place of a face in that order.
   int place(int face) const { return place_[face]; }
+  /// Longest edge of the triangle at a place.
+  double size(int place) const { return frames_[place].length; }
 
   /// squared[i] = squared distance of point i to the surface. `hint` is a place in the order to start from (any valid one
   /// gives the same distances) and receives the nearest one of the last point.

@@ -27,13 +27,13 @@ struct ElementLayout {
 };
 
 const std::array<ElementLayout, 4>& layout() {
-  static const std::array<ElementLayout, 4> elements = {{
+  static const std::array<ElementLayout, 4> kElements = {{
       {"vertex", {"double x", "double y", "double z", "int patch", "double u", "double v"}, 5 * 8 + 4},
       {"face", {"list uchar int vertex_indices", "int chart", "list uchar double texcoord"}, 1 + 3 * 4 + 4 + 1 + 6 * 8},
       {"base_vertex", {"int vertex"}, 4},
       {"base_face", {"list uchar int base_vertex_indices"}, 1 + 3 * 4},
   }};
-  return elements;
+  return kElements;
 }
 
 /// Items appended to a buffer as they lie in memory.

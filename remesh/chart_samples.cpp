@@ -125,10 +125,10 @@ SurfacePoint ChartSamples::nearest_in(int piece, Complex z) const {
 }
 
 ChartSamples::Sample ChartSamples::nearest_around(int i, int j) const {
-  static constexpr int around[6][2] = {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}};
+  static constexpr int kAround[6][2] = {{1, 0}, {0, 1}, {-1, 1}, {-1, 0}, {0, -1}, {1, -1}};
   const Complex z((i + kOmegaRe * j) / n_, kOmegaIm * j / n_);
   Sample best;
-  for (const auto& [di, dj] : around) {
+  for (const auto& [di, dj] : kAround) {
     const int x = i + di, y = j + dj;
     if (x < 0 || y < 0 || x + y > n_) continue;
     const int piece = samples_[lattice_index(n_, x, y)].piece;

@@ -30,9 +30,11 @@ int chosen_level(const Parameterization& map, const RemeshOptions& options) {
   return level;
 }
 
+/// Faces unfolded at a time by one thread.
+constexpr std::size_t kBlock = 4096;
+
 /// The pieces of all faces, by chart and within one by face.
 std::vector<std::vector<FacePiece>> pieces_by_chart(const Parameterization& map) {
-  constexpr std::size_t kBlock = 4096;
   const std::size_t faces = map.surface.faces.size();
   std::vector<std::vector<FacePiece>> blocks((faces + kBlock - 1) / kBlock);
   parallel_for(faces, kBlock, [&](std::size_t begin, std::size_t end) {
@@ -79,7 +81,7 @@ Vec3 position(const Mesh& surface, const SurfacePoint& point) {
 class Remesher {
  public:
   Remesher(const Parameterization& map, int level)
-      : map_(map), level_(level), n_(1 << level), borders_(3 * map.base.faces.size()), gaps_(map.base.faces.size(), 0) {
+      : map_(map), level_(level), n_(1 << level), borders_(map.base.twins.size()), gaps_(map.base.faces.size(), 0) {
     SubdivisionLevel finest = base_level(map.base.vertex_count(), map.base.faces);
     for (int l = 0; l < level; ++l) finest = subdivide(finest);
     faces_ = std::move(finest.faces);
