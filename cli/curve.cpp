@@ -29,8 +29,10 @@ Json method_report(const MethodSummary& m) {
     bytes_at[std::to_string(static_cast<int>(kTableLevelsDb[i])) + "_db"] = optional(m.bytes_at[i]);
   Json report = {{"method", m.method}, {"bytes_at", bytes_at}};
   if (m.base_vertices > 0)
-    report.update(
-        {{"base_vertices", m.base_vertices}, {"base_faces", m.base_faces}, {"level", m.level}, {"ceiling_db", m.ceiling_db}});
+    report.update({{"base_vertices", m.base_vertices},
+                   {"base_faces", m.base_faces},
+                   {"level", m.level},
+                   {"ceiling_db", m.ceiling_db}});
   if (m.gain)
     report["gain"] = {{"mean_db", m.gain->mean_db}, {"from_bytes", m.gain->from_bytes}, {"to_bytes", m.gain->to_bytes}};
   if (m.bytes_ratio) report["bytes_ratio"] = *m.bytes_ratio;

@@ -33,10 +33,9 @@ int run_decode(const Options& options, Context& context) {
   const std::size_t budget = options.bytes == 0 ? stream.size() : std::min(options.bytes, stream.size());
   const SemiregularMesh mesh = decode(stream, budget);
   write_semiregular(options.output, mesh);
-  print_report(context, {{"bytes", budget},
-                         {"level", mesh.level},
-                         {"vertices", mesh.positions.size()},
-                         {"output", options.output}});
+  print_report(
+      context,
+      {{"bytes", budget}, {"level", mesh.level}, {"vertices", mesh.positions.size()}, {"output", options.output}});
   return 0;
 }
 

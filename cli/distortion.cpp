@@ -54,7 +54,8 @@ void add_distortion(CLI::App& app, Context& context) {
   command.optional_file("--per-face", options->per_face, "also write both measures for every face as CSV");
   command.footer(
       "anisotropy is the paper's Gamma_a, the larger over the smaller singular value of the map from chart to surface\n"
-      "(1 is isotropic); area is Gamma_d, their product over its mean (1 is neutral). The lines with eigenvalues give the\n"
+      "(1 is isotropic); area is Gamma_d, their product over its mean (1 is neutral). The lines with eigenvalues give "
+      "the\n"
       "same from the metric tensor's eigenvalues, which are the squares. Weights are areas on the surface.");
   command.on_run([options, &context] { return run_distortion(*options, context); });
 }

@@ -97,7 +97,8 @@ void Command::integer_or_auto(const std::string& name, int& value, int automatic
     if (!parse(word, value)) value = automatic;
   };
   app_->add_option_function<std::string>(
-          name, set, fmt::format("{} [{}; {} or auto]", text, value == automatic ? "auto" : std::to_string(value), range))
+          name, set,
+          fmt::format("{} [{}; {} or auto]", text, value == automatic ? "auto" : std::to_string(value), range))
       ->check([=](const std::string& word) {
         return word == "auto" ? std::string() : refusal(word, low, high, range + " or auto");
       })
@@ -159,7 +160,9 @@ void Command::encode_options(std::string& wavelet, EncodeOptions& options) {
           "bits of the finest step relative to the bounding box: where the whole stream ends");
   app_->add_option("--tangential-ratio", options.tangential_ratio,
                    fmt::format("step of tangential over normal components [{}; 1, 2, 4, 8]", options.tangential_ratio))
-      ->check([](const std::string& given) { return refusal(given, {"1", "2", "4", "8"}); })
+      ->check([](const std::string& given) {
+        return refusal(given, {"1", "2", "4", "8"});
+      })
       ->option_text("N");
 }
 

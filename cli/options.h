@@ -33,7 +33,8 @@ class Command {
   /// An integer in [low, high], or the word auto, which stands for `automatic`.
   void integer_or_auto(const std::string& name, int& value, int automatic, int low, int high, const std::string& text);
   /// One of a few words.
-  void choice(const std::string& name, std::string& value, const std::vector<std::string>& words, const std::string& text);
+  void choice(const std::string& name, std::string& value, const std::vector<std::string>& words,
+              const std::string& text);
   /// Several of a few words, separated by commas.
   void choices(const std::string& name, std::vector<std::string>& values, const std::vector<std::string>& words,
                const std::string& text);

@@ -43,8 +43,9 @@ void add_remesh(CLI::App& app, Context& context) {
   command.argument("MAP", options->map, "map: *.param.ply");
   command.output("MESH", options->output, "the mesh, *.sr.ply");
   command.level_option(options->remesh);
-  command.number("--max-error", options->max_error, 0.0, 1.0,
-                 "instead of a level: the first whose RMS distance over the diagonal is at most X; 0 leaves it to --level");
+  command.number(
+      "--max-error", options->max_error, 0.0, 1.0,
+      "instead of a level: the first whose RMS distance over the diagonal is at most X; 0 leaves it to --level");
   command.exclude("--max-error", "--level");
   command.choice("--kind", options->kind, {"parametric"}, "where the samples lie");
   command.on_run([options, &context] { return run_remesh(*options, context); });

@@ -47,7 +47,8 @@ void print_lines(std::ostream& out, const Json& report, const std::string& inden
       print_lines(out, value, indent + "  ");
     } else if (value.is_array()) {
       out << '\n';
-      for (std::size_t i = 0; i < std::min(value.size(), kItemsShown); ++i) out << indent << "  " << item_text(value[i]) << '\n';
+      for (std::size_t i = 0; i < std::min(value.size(), kItemsShown); ++i)
+        out << indent << "  " << item_text(value[i]) << '\n';
       if (value.size() > kItemsShown) out << indent << "  ... and " << value.size() - kItemsShown << " more\n";
     } else {
       out << std::string(width - name.size() + 2, ' ') << value_text(value) << '\n';

@@ -24,8 +24,10 @@ void add_commands(CLI::App& app, Context& context) {
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 done, 1 failed, 2 wrong usage, 3 unusable input, 130 interrupted.\n"
-      "Data go to standard output, progress and errors to standard error. gsp COMMAND --help lists a command's options.");
-  for (auto* add : {add_curve, add_info, add_parameterize, add_remesh, add_encode, add_decode, add_distance, add_distortion})
+      "Data go to standard output, progress and errors to standard error. gsp COMMAND --help lists a command's "
+      "options.");
+  for (auto* add :
+       {add_curve, add_info, add_parameterize, add_remesh, add_encode, add_decode, add_distance, add_distortion})
     add(app, context);
 }
 
@@ -59,7 +61,8 @@ int usage_error(CLI::App& app, const CLI::ParseError& error, Context& context) {
   const std::string unknown = unknown_word(app);
   context.console.error("gsp: " + (unknown.empty() ? std::string(error.what()) : unknown));
   const std::vector<CLI::App*> chosen = app.get_subcommands();
-  context.console.error("gsp " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help lists what there is");
+  context.console.error("gsp " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") +
+                        "--help lists what there is");
   return kWrongUsage;
 }
 

@@ -82,7 +82,8 @@ std::vector<int> decimation_sizes(int faces) {
   constexpr double kRatio = 0.75;
   constexpr int kSmallest = 64;
   std::vector<int> sizes;
-  for (double size = 0.5 * faces; size >= kSmallest; size *= kRatio) sizes.push_back(static_cast<int>(std::lround(size)));
+  for (double size = 0.5 * faces; size >= kSmallest; size *= kRatio)
+    sizes.push_back(static_cast<int>(std::lround(size)));
   return sizes;
 }
 
@@ -90,7 +91,8 @@ std::vector<CurvePoint> decimate_draco_curve(const Meter& meter, std::size_t sam
   const std::vector<AnchorPoint> kept = envelope_candidates(meter, progress);
   std::vector<CurvePoint> points;
   for (const AnchorPoint& anchor : kept) {
-    progress.report("decimate, then Draco: measure", static_cast<double>(points.size()) / static_cast<double>(kept.size()));
+    progress.report("decimate, then Draco: measure",
+                    static_cast<double>(points.size()) / static_cast<double>(kept.size()));
     Progress silent;
     points.push_back(named(meter.measure(anchor.decoded, anchor.bytes, samples, silent), "decimate-draco",
                            anchor.quantization_bits));

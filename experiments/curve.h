@@ -12,8 +12,8 @@
 
 namespace gsp {
 
-/// One row of curve.csv: one decoded size of one method on one model. Distances are relative to the input's bounding-box
-/// diagonal, bytes are those that were decoded.
+/// One row of curve.csv: one decoded size of one method on one model. Distances are relative to the input's
+/// bounding-box diagonal, bytes are those that were decoded.
 struct CurvePoint {
   std::string model;
   std::string method;  ///< gsp, maps, maps-smoothed, draco, decimate-draco
@@ -27,7 +27,7 @@ struct CurvePoint {
   double psnr_db = 0.0;
   std::size_t samples = 0;
   double standard_error_db = 0.0;
-  double remesh_error = 0.0;     ///< ceiling of the method's curve; 0 for the anchors
+  double remesh_error = 0.0;  ///< ceiling of the method's curve; 0 for the anchors
   std::uint64_t seed = 0;
 };
 
@@ -45,7 +45,7 @@ struct CurveOptions {
   std::vector<std::size_t> budgets;  ///< bytes; empty: 256, 512, 1024, ... up to the whole stream
   std::size_t samples = 200000;      ///< per direction and point; decimate-draco, which has many points, takes half
   std::uint64_t seed = 1;
-  bool anchors = true;               ///< Draco on the input and decimate-then-Draco
+  bool anchors = true;  ///< Draco on the input and decimate-then-Draco
   /// Called with all that is measured so far after each method, so that an interrupt loses at most one of them.
   std::function<void(const CurveRun&)> on_progress;
 };
@@ -53,7 +53,8 @@ struct CurveOptions {
 /// The main job on one surface: parameterize by every method on one base complex, remesh, encode once, decode at each
 /// budget, measure against the input; then the anchors. Budgets that do not hold a stream's header are left out.
 /// Throws what its stages throw.
-CurveRun rate_distortion_curve(const Mesh& mesh, const std::string& model, const CurveOptions& options, Progress& progress);
+CurveRun rate_distortion_curve(const Mesh& mesh, const std::string& model, const CurveOptions& options,
+                               Progress& progress);
 
 /// The budgets of a stream: those wanted (or 256, 512, 1024, ...) that hold its header and are shorter than it, and the
 /// whole of it last.

@@ -155,8 +155,8 @@ std::vector<std::string> surface_files(const std::vector<std::string>& paths) {
   return files;
 }
 
-CurveJobResult curve_job(const std::vector<std::string>& surfaces, const std::string& folder, const CurveOptions& options,
-                         Progress& progress) {
+CurveJobResult curve_job(const std::vector<std::string>& surfaces, const std::string& folder,
+                         const CurveOptions& options, Progress& progress) {
   Job job(folder, options, progress);
   const std::vector<std::string> models = model_names(surfaces);
   for (std::size_t i = 0; i < surfaces.size(); ++i) job.add(surfaces[i], models[i]);

@@ -22,7 +22,7 @@ std::vector<std::string> surface_files(const std::vector<std::string>& paths);
 /// method, so that an interrupt loses no finished one), MODEL.png, .svg and .gp, MODEL-omega.csv, overview.png and .svg
 /// for several models. A surface that fails is a summary with its cause, and the others go on.
 /// Throws Error(Cancelled), Error(CannotWrite).
-CurveJobResult curve_job(const std::vector<std::string>& surfaces, const std::string& folder, const CurveOptions& options,
-                         Progress& progress);
+CurveJobResult curve_job(const std::vector<std::string>& surfaces, const std::string& folder,
+                         const CurveOptions& options, Progress& progress);
 
 }  // namespace gsp

@@ -51,7 +51,8 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-// Bytes from the first point to the last that any progressive method has: the anchors' tails would only shrink the rest.
+// Bytes from the first point to the last that any progressive method has: the anchors' tails would only shrink the
+// rest.
 std::pair<double, double> byte_range(const std::vector<CurvePoint>& points) {
   double low = 256.0, high = 1024.0;
   for (const CurvePoint& p : points) {
@@ -101,19 +102,21 @@ std::string panel_commands(const PlotPanel& panel, std::size_t index) {
   std::string lines;
   for (std::size_t m = 0; m < methods.size(); ++m) {
     const Style& style = style_of(methods[m]);
-    lines += fmt::format("{}{} using 1:2 with linespoints lw {} pt 7 ps 0.5 lc rgb '{}' title {}", m ? ", \\\n     " : "",
-                         data_name(index, m), style.width, style.color, quoted(methods[m]));
+    lines += fmt::format("{}{} using 1:2 with linespoints lw {} pt 7 ps 0.5 lc rgb '{}' title {}",
+                         m ? ", \\\n     " : "", data_name(index, m), style.width, style.color, quoted(methods[m]));
   }
   for (const std::string& method : methods) {
-    const auto row = std::find_if(points.begin(), points.end(), [&](const CurvePoint& p) { return p.method == method; });
+    const auto row =
+        std::find_if(points.begin(), points.end(), [&](const CurvePoint& p) { return p.method == method; });
     if (row->remesh_error > 0.0)
       lines += fmt::format(", \\\n     {:.4f} with lines dt 2 lw 1 lc rgb '{}' title {}",
                            -20.0 * std::log10(row->remesh_error), style_of(method).color,
                            quoted(method + " remesh (ceiling)"));
   }
   const auto [low, high] = byte_range(points);
-  return fmt::format("set title {} noenhanced\nset xtics ({})\nset xrange [{:.0f}:{:.0f}]\nset yrange [*:{}]\nplot {}\n",
-                     quoted(model), byte_tics(low, high), low, high, highest_shown(points), lines);
+  return fmt::format(
+      "set title {} noenhanced\nset xtics ({})\nset xrange [{:.0f}:{:.0f}]\nset yrange [*:{}]\nplot {}\n",
+      quoted(model), byte_tics(low, high), low, high, highest_shown(points), lines);
 }
 
 class ScratchFolder {
@@ -144,7 +147,8 @@ void run_gnuplot(const std::string& folder, const std::string& script) {
   const int failure = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, argv, environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failure != 0)
-    throw Error(Cause::ToolMissing, std::string("cannot run gnuplot, which draws the figures: ") + std::strerror(failure));
+    throw Error(Cause::ToolMissing,
+                std::string("cannot run gnuplot, which draws the figures: ") + std::strerror(failure));
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
@@ -169,12 +173,13 @@ std::string plot_script(const std::string& name, const std::vector<PlotPanel>& p
   const int width = several ? 640 * static_cast<int>(panels.size()) : 900;
   if (several) commands = fmt::format("set multiplot layout 1,{}\n{}unset multiplot\n", panels.size(), commands);
   for (const auto& [terminal, ending] : {std::pair{"pngcairo", "png"}, std::pair{"svg", "svg"}})
-    script += fmt::format("set terminal {} size {},600 background rgb 'white'\nset output {}\n{}unset output\n", terminal,
-                          width, quoted(name + "." + ending), commands);
+    script += fmt::format("set terminal {} size {},600 background rgb 'white'\nset output {}\n{}unset output\n",
+                          terminal, width, quoted(name + "." + ending), commands);
   return script;
 }
 
-std::vector<std::string> plot(const std::string& folder, const std::string& name, const std::vector<PlotPanel>& panels) {
+std::vector<std::string> plot(const std::string& folder, const std::string& name,
+                              const std::vector<PlotPanel>& panels) {
   AtomicFile script(folder + "/" + name + ".gp");
   script.stream() << plot_script(name, panels);
   script.commit();
@@ -182,7 +187,8 @@ std::vector<std::string> plot(const std::string& folder, const std::string& name
   // Drawn in a folder of its own and moved, so that an interrupt leaves no half of a figure.
   const ScratchFolder scratch(folder + "/.plot-" + std::to_string(::getpid()));
   run_gnuplot(scratch.path(), "../" + name + ".gp");
-  for (const std::string& figure : figures) std::filesystem::rename(scratch.path() + "/" + figure, folder + "/" + figure);
+  for (const std::string& figure : figures)
+    std::filesystem::rename(scratch.path() + "/" + figure, folder + "/" + figure);
   return {figures[0], figures[1], name + ".gp"};
 }
 

@@ -12,7 +12,8 @@ namespace gsp {
 using PlotPanel = std::pair<std::string, std::vector<CurvePoint>>;
 
 /// The gnuplot program that draws panels side by side to NAME.png and NAME.svg in its working folder: PSNR over bytes
-/// (logarithmic), one line a method, remeshing ceilings dashed. The data stand in it, so it can be restyled and run again.
+/// (logarithmic), one line a method, remeshing ceilings dashed. The data stand in it, so it can be restyled and run
+/// again.
 std::string plot_script(const std::string& name, const std::vector<PlotPanel>& panels);
 
 /// Writes FOLDER/NAME.gp and runs gnuplot on it; returns the names of the files made.

@@ -74,7 +74,8 @@ CurveSummary summarize(const std::string& model, const std::vector<CurvePoint>& 
     MethodSummary& m = summary.methods.emplace_back();
     m.method = method;
     m.ceiling_db = ceiling_db(points, method);
-    const auto row = std::find_if(points.begin(), points.end(), [&](const CurvePoint& p) { return p.method == method; });
+    const auto row =
+        std::find_if(points.begin(), points.end(), [&](const CurvePoint& p) { return p.method == method; });
     m.base_vertices = row->base_vertices;
     m.base_faces = row->base_faces;
     m.level = row->level;
@@ -120,13 +121,15 @@ void print_summaries(std::ostream& out, const std::vector<CurveSummary>& summari
     if (const auto gain = mean_gain_db(summaries, other, models))
       fmt::print(out, "  {} over {}: {:+.2f} dB ({} of {} models)\n", first, other, *gain, models, summaries.size());
   }
-  fmt::print(out,
-             "PSNR = 20 log10(bounding-box diagonal of the input / RMS distance), RMS the larger of both directions.\n"
-             "ceiling: PSNR of the uncoded remesh. 50 dB ...: bytes at which the curve reaches it.\n"
-             "gain: PSNR of {} less that of the row's method, mean over log-bytes from {:.0f} bytes up to where the first\n"
-             "of the two curves is within {:.0f} dB of its own ceiling. ratio: the row's bytes over those of {} at {:.0f} dB.\n"
-             "Curves are linear in log-bytes between their points; decimate-draco is the upper envelope of its points.\n",
-             first, kCompareFromBytes, kCeilingMarginDb, first, kRatioLevelDb);
+  fmt::print(
+      out,
+      "PSNR = 20 log10(bounding-box diagonal of the input / RMS distance), RMS the larger of both directions.\n"
+      "ceiling: PSNR of the uncoded remesh. 50 dB ...: bytes at which the curve reaches it.\n"
+      "gain: PSNR of {} less that of the row's method, mean over log-bytes from {:.0f} bytes up to where the first\n"
+      "of the two curves is within {:.0f} dB of its own ceiling. ratio: the row's bytes over those of {} at {:.0f} "
+      "dB.\n"
+      "Curves are linear in log-bytes between their points; decimate-draco is the upper envelope of its points.\n",
+      first, kCompareFromBytes, kCeilingMarginDb, first, kRatioLevelDb);
 }
 
 }  // namespace gsp

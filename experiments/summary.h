@@ -21,10 +21,10 @@ inline constexpr double kCeilingMarginDb = 10.0;
 struct MethodSummary {
   std::string method;
   int base_vertices = 0, base_faces = 0, level = 0;
-  double ceiling_db = 0.0;                          ///< -20·log10(remeshing error); 0 for the anchors, which have none
-  std::vector<std::optional<double>> bytes_at;      ///< at kTableLevelsDb
-  std::optional<Gain> gain;                         ///< of the first method over this one; empty for the first itself
-  std::optional<double> bytes_ratio;                ///< this method's bytes over the first's, at kRatioLevelDb
+  double ceiling_db = 0.0;                      ///< -20·log10(remeshing error); 0 for the anchors, which have none
+  std::vector<std::optional<double>> bytes_at;  ///< at kTableLevelsDb
+  std::optional<Gain> gain;                     ///< of the first method over this one; empty for the first itself
+  std::optional<double> bytes_ratio;            ///< this method's bytes over the first's, at kRatioLevelDb
 };
 
 struct CurveSummary {

@@ -31,7 +31,8 @@ SemiregularMesh remesh_to_error(const Parameterization& map, double max_error, P
     progress.note(fmt::format("level {}: error {:.3g} of the diagonal", level, error));
     if (error <= max_error) return result;
   }
-  throw Error(Cause::BadOption, fmt::format("no level reaches an error of {:.3g}; the finest has {:.3g}", max_error, error));
+  throw Error(Cause::BadOption,
+              fmt::format("no level reaches an error of {:.3g}; the finest has {:.3g}", max_error, error));
 }
 
 std::size_t prefix_for_psnr(const Bytes& stream, const SemiregularMesh& original, double psnr_db, Progress& progress) {
@@ -42,8 +43,8 @@ std::size_t prefix_for_psnr(const Bytes& stream, const SemiregularMesh& original
     progress.report(fmt::format("search the prefix: {} bytes", bytes), 0.0);
     return surface_distance(reference, tree, decode(stream, bytes).mesh(), kRuler, silent).psnr_db() >= psnr_db;
   };
-  // Doubled up from few bytes, because a first guess in the middle of a long stream is dear and far off. The header alone
-  // decodes to a mesh without extent, so the search starts a little above it.
+  // Doubled up from few bytes, because a first guess in the middle of a long stream is dear and far off. The header
+  // alone decodes to a mesh without extent, so the search starts a little above it.
   constexpr std::size_t kFirstBytes = 64;
   std::size_t low = header_bytes(stream), high = std::min(stream.size(), low + kFirstBytes);
   while (high < stream.size() && !reaches(high)) {

@@ -18,7 +18,8 @@ namespace {
 // The program itself, in a process of its own: neither a crash nor a hang (status 124) takes the test with it.
 Ran gsp_process(const std::string& arguments, const TemporaryFolder& folder) {
   const std::string out = folder.file("out.txt"), err = folder.file("err.txt");
-  const int status = std::system(("timeout 60 '" GSP_PROGRAM "' " + arguments + " >'" + out + "' 2>'" + err + "'").c_str());
+  const int status =
+      std::system(("timeout 60 '" GSP_PROGRAM "' " + arguments + " >'" + out + "' 2>'" + err + "'").c_str());
   const auto text = [](const std::string& path) {
     std::ifstream in(path);
     return std::string(std::istreambuf_iterator<char>(in), {});

@@ -70,13 +70,14 @@ TEST_CASE("info says why a surface cannot be used, with the place, and status 3"
 TEST_CASE("every command that reads a file refuses one that is not there with status 3") {
   const TemporaryFolder folder;
   const std::string missing = folder.file("missing.ply"), output = folder.file("output.ply");
-  for (const std::vector<std::string>& args : std::vector<std::vector<std::string>>{{"info", missing},
-                                                                                    {"parameterize", missing, "-o", output},
-                                                                                    {"remesh", missing, "-o", output},
-                                                                                    {"encode", missing, "-o", output},
-                                                                                    {"decode", missing, "-o", output},
-                                                                                    {"distance", missing, missing},
-                                                                                    {"distortion", missing}}) {
+  for (const std::vector<std::string>& args :
+       std::vector<std::vector<std::string>>{{"info", missing},
+                                             {"parameterize", missing, "-o", output},
+                                             {"remesh", missing, "-o", output},
+                                             {"encode", missing, "-o", output},
+                                             {"decode", missing, "-o", output},
+                                             {"distance", missing, missing},
+                                             {"distortion", missing}}) {
     CAPTURE(args.front());
     CHECK(gsp_run(args).status == 3);
   }
@@ -159,7 +160,8 @@ TEST_CASE("a stream that is none is unusable input") {
 TEST_CASE("output that cannot be written is a failure, status 1") {
   const TemporaryFolder folder;
   const std::string mesh = write_bumpy(folder);
-  CHECK(gsp_run({"parameterize", mesh, "-o", folder.file("no/such/folder/map.param.ply"), "--base-vertices", "40"}).status == 1);
+  CHECK(gsp_run({"parameterize", mesh, "-o", folder.file("no/such/folder/map.param.ply"), "--base-vertices", "40"})
+            .status == 1);
 }
 
 TEST_CASE("an error is JSON too where JSON is asked for") {
@@ -181,6 +183,7 @@ TEST_CASE("curve draws what works, names what fails, and ends with status 1 for 
   CHECK_FALSE(report["models"][1].contains("error"));
   CHECK(report["models"][1]["methods"][0]["method"] == "gsp");
   CHECK(report["models"][1]["methods"].size() == 4);
-  for (const char* name : {"curve.csv", "bumpy.png", "bumpy.svg", "bumpy-omega.csv"}) CHECK(size_of(to + "/" + name) > 200);
+  for (const char* name : {"curve.csv", "bumpy.png", "bumpy.svg", "bumpy-omega.csv"})
+    CHECK(size_of(to + "/" + name) > 200);
   for (const auto& file : report["files"]) CHECK(std::filesystem::exists(file.get<std::string>()));
 }

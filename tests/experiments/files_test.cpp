@@ -43,9 +43,10 @@ TEST_CASE("curve.csv has the columns of the design and one row per point") {
   CHECK_FALSE(std::getline(in, rest));
   const auto names = split(header), fields = split(row);
   REQUIRE(names.size() == fields.size());
-  for (const char* name : {"model", "method", "gamma", "mu", "base_vertices", "base_faces", "level", "wavelet", "coder",
-                           "bytes", "bits_per_vertex", "rms_forward", "rms_backward", "rms", "hausdorff", "psnr_db",
-                           "samples", "standard_error_db", "remesh_error", "seed", "version"})
+  for (const char* name : {"model",        "method",  "gamma",     "mu",      "base_vertices",   "base_faces",
+                           "level",        "wavelet", "coder",     "bytes",   "bits_per_vertex", "rms_forward",
+                           "rms_backward", "rms",     "hausdorff", "psnr_db", "samples",         "standard_error_db",
+                           "remesh_error", "seed",    "version"})
     CHECK(std::count(names.begin(), names.end(), name) == 1);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] == "bytes") CHECK(fields[i] == "1024");
@@ -85,7 +86,8 @@ TEST_CASE("a plot draws strange names, and names the files it made") {
   const TemporaryFolder folder;
   const std::string model = "it's a_model{x}";
   const std::vector<CurvePoint> points = {sample_point(model, "gsp", 256, 40), sample_point(model, "gsp", 4096, 60),
-                                          sample_point(model, "draco", 4096, 30), sample_point(model, "draco", 90000, 70)};
+                                          sample_point(model, "draco", 4096, 30),
+                                          sample_point(model, "draco", 90000, 70)};
   const auto files = plot(folder.path().string(), "figure", {{model, points}, {"second", points}});
   REQUIRE(files.size() == 3);
   for (const std::string& file : files) CHECK(std::filesystem::file_size(folder.file(file)) > 500);

@@ -9,7 +9,9 @@ using namespace gsp;
 namespace {
 
 // 5 dB per doubling, as curves of the field run, with a bend.
-RateCurve sample_curve() { return {{256, 40.0}, {512, 45.0}, {1000, 51.0}, {4096, 60.0}, {30000, 66.0}, {100000, 67.0}}; }
+RateCurve sample_curve() {
+  return {{256, 40.0}, {512, 45.0}, {1000, 51.0}, {4096, 60.0}, {30000, 66.0}, {100000, 67.0}};
+}
 
 RateCurve shifted(RateCurve curve, double bytes_factor, double db) {
   for (RatePoint& point : curve) point = {point.bytes * bytes_factor, point.psnr_db + db};
@@ -20,8 +22,8 @@ RateCurve shifted(RateCurve curve, double bytes_factor, double db) {
 
 TEST_CASE("the upper envelope keeps what no smaller point reaches") {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
-  const RateCurve envelope =
-      upper_envelope({{300, 50}, {100, 40}, {200, 39}, {300, 52}, {250, nan}, {400, 52}, {500, 53}, {600, infinite}, {0, 60}});
+  const RateCurve envelope = upper_envelope(
+      {{300, 50}, {100, 40}, {200, 39}, {300, 52}, {250, nan}, {400, 52}, {500, 53}, {600, infinite}, {0, 60}});
   REQUIRE(envelope.size() == 3);
   CHECK((envelope[0].bytes == 100 && envelope[0].psnr_db == 40));
   CHECK((envelope[1].bytes == 300 && envelope[1].psnr_db == 52));
@@ -41,7 +43,8 @@ TEST_CASE("a curve is linear in log-bytes and says nothing outside its points") 
   CHECK(*bytes_at(curve, 40.0) == Approx(100));
   CHECK_FALSE(bytes_at(curve, 39.9));
   CHECK_FALSE(bytes_at(curve, 50.1));
-  for (double bytes : {300.0, 2000.0, 50000.0}) CHECK(*bytes_at(sample_curve(), *psnr_at(sample_curve(), bytes)) == Approx(bytes));
+  for (double bytes : {300.0, 2000.0, 50000.0})
+    CHECK(*bytes_at(sample_curve(), *psnr_at(sample_curve(), bytes)) == Approx(bytes));
 }
 
 TEST_CASE("the gain of a shifted curve is the shift") {
