@@ -11,36 +11,6 @@ namespace gsp {
 
 namespace {
 
-constexpr int kInputs = 4;
-constexpr int kMemory = 250;     // bits after which a context starts to forget
-constexpr int kMixerRate = 6;
-
-/// Several contexts' opinions on one decision, mixed.
-class Decision {
- public:
-  Decision(Mixer<kInputs>& mixer, const std::array<AdaptiveBit*, kInputs>& contexts) : mixer_(mixer), contexts_(contexts) {
-    for (int i = 0; i < kInputs; ++i) logits_[i] = stretch(contexts_[i]->set);
-    probability_ = std::clamp<Probability>(mixer_.mix(logits_), 16, 65536 - 16);
-  }
-  Probability probability() const { return probability_; }
-  void learn(bool bit) {
-    mixer_.update(logits_, probability_, bit, kMixerRate);
-    for (AdaptiveBit* context : contexts_) context->update(bit, kMemory);
-  }
-
- private:
-  Mixer<kInputs>& mixer_;
-  const std::array<AdaptiveBit*, kInputs>& contexts_;
-  std::array<int, kInputs> logits_;
-  Probability probability_;
-};
-
-struct ContextSet {
-  std::vector<AdaptiveBit> bits;
-  AdaptiveBit* at(std::size_t i) { return &bits[i]; }
-  explicit ContextSet(std::size_t n) : bits(n) {}
-};
-
 class EncodingSide {
  public:
   explicit EncodingSide(Bytes& out) : coder_(out) {}
@@ -63,9 +33,16 @@ class DecodingSide {
   RangeDecoder coder_;
 };
 
-/// 0, 1, 2, 3-4, 5-8, ... in quarters of the plane's threshold.
-int magnitude_class(std::uint64_t quarters, int classes) {
-  return std::min<int>(std::bit_width(quarters), classes - 1);
+/// Octave of a magnitude in quarters of the plane's threshold: 0, 1, 2-3, 4-7, ...
+int octave(std::uint64_t quarters, int classes) { return std::min<int>(std::bit_width(quarters), classes - 1); }
+
+/// Index of a tuple of values into a table of the given extents, and the size of that table.
+template <class... Rest>
+constexpr int tuple_index(int value, int extent, Rest... rest) {
+  if constexpr (sizeof...(rest) == 0)
+    return value;
+  else
+    return value + extent * tuple_index(rest...);
 }
 
 template <class Side>
@@ -82,6 +59,7 @@ class BitplaneCoder {
       known_.details[c].negative.assign(nodes, 0);
       known_.details[c].low_plane.assign(nodes, layout.detail_planes);
       descendants_[c].assign(nodes, 0);
+      children_[c].assign(nodes, 0);
       descendants_low_plane_[c].assign(nodes, layout.detail_planes);
     }
     if (actual) find_largest_descendants();
@@ -113,13 +91,6 @@ class BitplaneCoder {
     }
   }
 
-  bool decide(bool actual, Mixer<kInputs>& mixer, const std::array<AdaptiveBit*, kInputs>& contexts) {
-    Decision decision(mixer, contexts);
-    const bool bit = side_.decide(actual, decision.probability());
-    decision.learn(bit);
-    return bit;
-  }
-
   double base_midpoint(int v, int k) const {
     return known_.base[v][k] + 0.5 * static_cast<double>(1u << known_.base_low_plane[v][k]);
   }
@@ -138,11 +109,10 @@ class BitplaneCoder {
         spread /= std::max<std::size_t>(ring.size(), 1);
         const double x = (mean - known_.base[v][k] - unit) / unit;
         const int place = static_cast<int>(std::clamp(std::floor(x * 4.0), -8.0, 7.0)) + 8;
-        const int width = magnitude_class(static_cast<std::uint64_t>(4.0 * spread / unit), 8);
-        const int fine = static_cast<int>(std::clamp(std::floor(x * 12.0), -16.0, 15.0)) + 16;
-        const std::array<AdaptiveBit*, kInputs> contexts = {
-            base_a_.at(place), base_b_.at(place * 8 + width), base_c_.at(fine), base_d_.at(place / 2 * 32 + plane)};
-        const bool bit = decide(actual_ && (actual_->base[v][k] >> plane & 1), base_mixer_, contexts);
+        const int fine_place = static_cast<int>(std::clamp(std::floor(x * 12.0), -16.0, 15.0)) + 16;
+        const int width = octave(static_cast<std::uint64_t>(4.0 * spread / unit), 8);
+        const bool actual = actual_ && (actual_->base[v][k] >> plane & 1);
+        const bool bit = base_model_.decide(side_, actual, {place, place * 8 + width, fine_place, place / 2 * 32 + plane}, 0);
         known_.base[v][k] |= static_cast<std::uint32_t>(bit) << plane;
         known_.base_low_plane[v][k] = plane;
       }
@@ -167,82 +137,91 @@ class BitplaneCoder {
     }
   }
 
-  /// Whether a descendant of `n` is significant at `plane`, asked from the stream where it is not known yet.
+  /// Whether descendants of `n` may be significant at `plane`. Beside anything significant they are coded one by one, for
+  /// their contexts say more than a tree could; elsewhere the stream says once for the whole tree that there are none.
   bool has_descendants(int plane, int level, int c, int n) {
+    std::uint8_t& open = descendants_[c][n];
+    if (!open) open = known_.details[c].magnitude[n] != 0 || ring(0, c, n) != 0;
     std::uint8_t& low_plane = descendants_low_plane_[c][n];
-    while (!descendants_[c][n] && low_plane > plane) {
+    while (!open && low_plane > plane) {
       const int parent = forest_.parent[n];
-      if (parent < 0 || has_descendants(low_plane - 1, level - 1, c, parent)) find_descendants(low_plane - 1, level, c, n);
+      if (parent < 0 || has_descendants(low_plane - 1, level - 1, c, parent)) open = find_descendants(low_plane - 1, level, c, n);
       --low_plane;
     }
-    return descendants_[c][n];
+    return open;
   }
 
-  /// Sum over the same-level neighbours' magnitudes in quarters of the threshold.
+  static std::uint64_t quarters(std::uint64_t magnitude, int plane) { return (magnitude << 2) >> plane; }
+
+  /// Sum of the magnitudes of the edges beside `n`, in quarters of the threshold.
   std::uint64_t ring(int plane, int c, int n) const {
     std::uint64_t sum = 0;
     for (int w : forest_.neighbours[n])
       if (w >= 0) sum += known_.details[c].magnitude[w];
     return quarters(sum, plane);
   }
-  static std::uint64_t quarters(std::uint64_t magnitude, int plane) { return (magnitude << 2) >> plane; }
+
+  std::uint64_t parent_magnitude(int plane, int c, int n) const {
+    const int parent = forest_.parent[n];
+    return parent < 0 ? 0 : quarters(known_.details[c].magnitude[parent], plane);
+  }
+
+  void grow(int plane, int c, int n) {
+    known_.details[c].magnitude[n] |= 1u << plane;
+    if (forest_.parent[n] >= 0) children_[c][forest_.parent[n]] += std::uint64_t{1} << plane;
+  }
 
   void find_significant(int plane, int level, int c, int n) {
-    const int type = c == 0 ? 0 : 1;
-    const int parent = forest_.parent[n];
-    const auto& known = known_.details[c];
-    const std::uint64_t around = ring(plane, c, n);
-    const std::uint64_t above = parent < 0 ? 0 : quarters(known.magnitude[parent], plane);
-    std::uint64_t others = 0;
-    for (int o = 0; o < 3; ++o)
-      if (o != c) others += quarters(known_.details[o].magnitude[n], plane);
-    std::uint64_t wide = around * 2 + above;
+    const int tangential = c != 0;
+    const std::uint64_t around = ring(plane, c, n), above = parent_magnitude(plane, c, n);
+    std::uint64_t wide = 2 * around + above;
     for (int w : forest_.neighbours[n])
       if (w >= 0) wide += ring(plane, c, w);
-    const int qa = magnitude_class(around, 8), qb = magnitude_class(above, 7), qo = magnitude_class(others, 6);
-    const int qw = magnitude_class(wide, 10);
-    const int beneath = descendants_[c][n];
-    const std::array<AdaptiveBit*, kInputs> contexts = {
-        significance_a_.at(((type * 8 + qa) * 7 + qb) * 2 + beneath),
-        significance_b_.at((level * 32 + plane) * 3 + c),
-        significance_c_.at(((c * 6 + qo) * 8 + qa) * 2 + beneath),
-        significance_d_.at((type * 10 + qw) * 12 + level)};
-    const bool bit = decide(actual_ && (actual_->details[c].magnitude[n] >> plane & 1), significance_mixer_[type], contexts);
+    std::uint64_t others_here = 0, others_around = 0;
+    for (int o = 0; o < 3; ++o) {
+      if (o == c) continue;
+      others_here += quarters(known_.details[o].magnitude[n], plane);
+      others_around += ring(plane, o, n);
+    }
+    const int a = octave(around, 8), p = octave(above, 7), w = octave(wide, 10), here = octave(others_here, 6);
+    const int below = octave(quarters(children_[c][n], plane), 8), cross = octave(2 * others_here + others_around, 10);
+    const int open = descendants_[c][n];
+    const bool bit = significance_model_.decide(
+        side_, actual_ && (actual_->details[c].magnitude[n] >> plane & 1),
+        {tuple_index(tangential, 2, open, 2, p > 0, 2, w, 10, a, 8), tuple_index(c, 3, plane, 32, level, kLevels),
+         tuple_index(c, 3, open, 2, here, 6, a, 8), tuple_index(tangential, 2, w, 10, level, kLevels),
+         tuple_index(tangential, 2, p, 7, a, 8, below, 8), tuple_index(c, 3, w, 10, cross, 10)},
+        tangential);
     if (!bit) return;
-    const bool negative = side_.decide(actual_ && actual_->details[c].negative[n], 32768);
-    known_.details[c].magnitude[n] = 1u << plane;
-    known_.details[c].negative[n] = negative;
+    known_.details[c].negative[n] = side_.decide(actual_ && actual_->details[c].negative[n], 32768);
+    grow(plane, c, n);
   }
 
   void refine(int plane, int level, int c, int n) {
-    const int type = c == 0 ? 0 : 1;
-    auto& known = known_.details[c];
-    const int first = std::min<int>(std::bit_width(known.magnitude[n] >> (plane + 1)), 4);
-    const int qa = magnitude_class(ring(plane, c, n), 8);
-    const std::array<AdaptiveBit*, kInputs> contexts = {refinement_a_.at(first * 8 + qa), refinement_b_.at(first * 2 + type),
-                                                        refinement_c_.at(level * 5 + first), refinement_d_.at(plane * 5 + first)};
-    const bool bit = decide(actual_ && (actual_->details[c].magnitude[n] >> plane & 1), refinement_mixer_, contexts);
-    known.magnitude[n] |= static_cast<std::uint32_t>(bit) << plane;
+    const int size = octave(known_.details[c].magnitude[n] >> (plane + 1), 5);
+    const int a = octave(ring(plane, c, n), 8), p = octave(parent_magnitude(plane, c, n), 8);
+    const bool bit = refinement_model_.decide(
+        side_, actual_ && (actual_->details[c].magnitude[n] >> plane & 1),
+        {tuple_index(size, 5, a, 8), tuple_index(size, 5, c, 3), tuple_index(size, 5, level, kLevels), tuple_index(size, 5, p, 8)}, 0);
+    if (bit) grow(plane, c, n);
   }
 
-  void find_descendants(int plane, int level, int c, int n) {
-    const int type = c == 0 ? 0 : 1;
-    const int parent = forest_.parent[n];
-    const auto& known = known_.details[c];
-    const int qs = magnitude_class(quarters(known.magnitude[n], plane), 6);
-    const int qa = magnitude_class(ring(plane, c, n), 8);
-    int nearby = 0;
+  bool find_descendants(int plane, int level, int c, int n) {
+    const int tangential = c != 0, p = octave(parent_magnitude(plane, c, n), 6);
+    int open_neighbours = 0, open_components = 0;
     for (int w : forest_.neighbours[n])
-      if (w >= 0) nearby += descendants_[c][w];
-    const int qp = parent < 0 ? 0 : magnitude_class(quarters(known.magnitude[parent], plane), 6);
-    int other = 0;
-    for (int o = 0; o < 3; ++o)
-      if (o != c) other += descendants_[o][n];
-    const std::array<AdaptiveBit*, kInputs> contexts = {
-        descendants_a_.at((type * 6 + qs) * 8 + qa), descendants_b_.at((level * 32 + plane) * 3 + c),
-        descendants_c_.at(((c * 5 + nearby) * 3 + other) * 6 + qs), descendants_d_.at((type * 6 + qp) * 12 + level)};
-    const bool bit = decide(actual_ && largest_[c][n] >> plane != 0, descendants_mixer_[type], contexts);
-    descendants_[c][n] = bit;
+      if (w >= 0) open_neighbours += descendants_[c][w];
+    std::uint64_t others = 0;
+    for (int o = 0; o < 3; ++o) {
+      if (o == c) continue;
+      open_components += descendants_[o][n];
+      others += quarters(known_.details[o].magnitude[n], plane) + ring(plane, o, n);
+    }
+    return descendants_model_.decide(
+        side_, actual_ && largest_[c][n] >> plane != 0,
+        {tuple_index(c, 3, open_neighbours, 5, open_components, 3), tuple_index(c, 3, plane, 32, level, kLevels),
+         tuple_index(tangential, 2, p, 6, level, kLevels), tuple_index(tangential, 2, octave(others, 8), 8)},
+        tangential);
   }
 
   const EdgeForest& forest_;
@@ -250,20 +229,17 @@ class BitplaneCoder {
   const BitplaneCoefficients* actual_;
   Side& side_;
   BitplaneCoefficients known_;
-  std::array<std::vector<std::uint8_t>, 3> descendants_;  ///< 1 once a descendant is significant
-  std::array<std::vector<std::uint8_t>, 3> descendants_low_plane_;  ///< planes from here up are known to have none before
-  std::array<std::vector<std::uint32_t>, 3> largest_;
+  std::array<std::vector<std::uint8_t>, 3> descendants_;  ///< 1 once descendants are coded one by one
+  std::array<std::vector<std::uint8_t>, 3> descendants_low_plane_;  ///< above and at it, a closed tree is known to be empty
+  std::array<std::vector<std::uint64_t>, 3> children_;              ///< sum of the children's known magnitudes
+  std::array<std::vector<std::uint32_t>, 3> largest_;               ///< encoder only: largest magnitude of all descendants
   std::vector<std::int8_t> urgency_;
 
-  ContextSet base_a_{16}, base_b_{16 * 8}, base_c_{32}, base_d_{8 * 32};
-  Mixer<kInputs> base_mixer_;
-  ContextSet significance_a_{2 * 8 * 7 * 2}, significance_b_{12 * 32 * 3}, significance_c_{3 * 6 * 8 * 2},
-      significance_d_{2 * 10 * 12};
-  std::array<Mixer<kInputs>, 2> significance_mixer_;
-  ContextSet refinement_a_{5 * 8}, refinement_b_{5 * 2}, refinement_c_{12 * 5}, refinement_d_{32 * 5};
-  Mixer<kInputs> refinement_mixer_;
-  ContextSet descendants_a_{2 * 6 * 8}, descendants_b_{12 * 32 * 3}, descendants_c_{3 * 5 * 3 * 6}, descendants_d_{2 * 6 * 12};
-  std::array<Mixer<kInputs>, 2> descendants_mixer_;
+  static constexpr int kLevels = kMaxSubdivisionLevel + 1;
+  MixedModel<4> base_model_{{16, 16 * 8, 32, 8 * 32}, 1};
+  MixedModel<6> significance_model_{{2 * 2 * 2 * 10 * 8, 3 * 32 * kLevels, 3 * 2 * 6 * 8, 2 * 10 * kLevels, 2 * 7 * 8 * 8, 3 * 10 * 10}, 2};
+  MixedModel<4> refinement_model_{{5 * 8, 5 * 3, 5 * kLevels, 5 * 8}, 1};
+  MixedModel<4> descendants_model_{{3 * 5 * 3, 3 * 32 * kLevels, 2 * 6 * kLevels, 2 * 8}, 2};
 };
 
 }  // namespace

@@ -18,7 +18,8 @@ const char* wavelet_name(Wavelet wavelet);
 struct EncodeOptions {
   Wavelet wavelet = Wavelet::Loop;
   /// Bits per coordinate of the finest quantization of normal components relative to the bounding box, 8..24.
-  /// It sets where the stream ends: the whole stream codes every coefficient to half of this step.
+  /// It sets where the stream ends: the whole stream codes every coefficient to about this step, times the inverse square
+  /// root of the local over the mean triangle area. At most 25 less the number of levels is used.
   int precision_bits = 16;
   /// Step of tangential components over that of normal ones, a power of two: 1, 2, 4, 8.
   int tangential_ratio = 4;

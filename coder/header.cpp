@@ -130,8 +130,8 @@ StreamHeader read_header(const std::uint8_t* begin, const std::uint8_t* end) {
   const std::uint64_t faces = parser.varint();
   if (faces == 0 || faces > static_cast<std::uint64_t>(kMaxDecodedFaces >> (2 * header.level)))
     refuse("its mesh has no faces or too many");
-  header.step_exponent = static_cast<int>(parser.signed_within(600));
-  for (std::int64_t& o : header.origin) o = parser.signed_within(std::int64_t{1} << 52);
+  header.step_exponent = static_cast<int>(parser.signed_within(500));
+  for (std::int64_t& o : header.origin) o = parser.signed_within(std::int64_t{1} << 58);
   header.base = decode_connectivity(static_cast<int>(faces), parser.next(), end);
   return header;
 }

@@ -35,7 +35,7 @@ std::vector<std::int8_t> area_urgency(const std::vector<SubdivisionLevel>& level
   std::vector<double> areas = face_areas(levels[finest], positions);
   double total = 0.0;
   for (double a : areas) total += a;
-  if (!(total > 0.0)) return urgency;
+  if (!(total > 0.0 && std::isfinite(total))) return urgency;
   for (int l = finest; l >= 0; --l) {
     if (l < forest.levels())
       for (int e = 0; e < levels[l].edge_count(); ++e) {

@@ -30,6 +30,14 @@ double component_step(const StreamHeader& header, int level, int c) {
 
 double origin_unit(const StreamHeader& header) { return std::ldexp(base_step(header), header.base_planes - 3); }
 
+/// The length that precision is relative to: the diagonal where there is one, else something that resolves the place.
+double extent(const std::vector<Vec3>& base, double diagonal) {
+  double farthest = 0.0;
+  for (const Vec3& p : base) farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
+  constexpr double kSmallest = 1e-100;
+  return std::max({diagonal, std::ldexp(farthest, -30), kSmallest});
+}
+
 /// Chooses planes and origin so that every base position lies inside, and returns the integers.
 std::vector<std::array<std::uint32_t, 3>> quantize_base(const std::vector<Vec3>& base, StreamHeader& header) {
   Vec3 low = base[0], high = base[0];
@@ -61,7 +69,9 @@ std::vector<std::array<std::uint32_t, 3>> quantize_base(const std::vector<Vec3>&
 
 BitplaneCoefficients quantize(const std::vector<Vec3>& base, const std::vector<std::vector<Vec3>>& details, double diagonal,
                               int precision_bits, StreamHeader& header) {
-  header.step_exponent = diagonal > 0.0 ? static_cast<int>(std::floor(std::log2(diagonal))) - precision_bits - kSpareBits : 0;
+  // Base positions have a bit more for each level; all must fit 31 bits, control points outside the box included.
+  const int bits = std::min(precision_bits + kSpareBits, 27 - header.level);
+  header.step_exponent = std::ilogb(extent(base, diagonal)) - bits;
   BitplaneCoefficients integers;
   integers.base = quantize_base(base, header);
   std::uint32_t largest = 0;

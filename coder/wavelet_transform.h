@@ -20,19 +20,17 @@ class WaveletTransform {
 
   int levels() const;
 
-  /// Low-pass part P c of one step: positions of level l+1 from those of level l.
-  std::vector<Vec3> low_pass(int level, const std::vector<Vec3>& coarse) const;
-
-  /// One step: low_pass + Q d, with d the details of the level's edges.
+  /// One step, P c + Q d: positions of level l+1 from those of level l and the details of its edges.
   std::vector<Vec3> synthesis(int level, const std::vector<Vec3>& coarse, const std::vector<Vec3>& details) const;
 
   struct Split {
     std::vector<Vec3> coarse;
     std::vector<Vec3> details;
-    int iterations = 0;  ///< of the iterative solver, over the three coordinates
+    int iterations = 0;  ///< of the iterative solver
   };
 
-  /// Solves [P Q][c; d] = x to rounding (relative residual 1e-13) by BiCGSTAB.
+  /// Solves [P Q][c; d] = x to rounding (relative residual 1e-13 in each coordinate). Time in proportion to the vertices:
+  /// about 40 iterations of two products with [P Q], the same bits for any number of threads.
   /// Throws Error(SolverFailed) where it does not converge.
   Split analysis(int level, const std::vector<Vec3>& fine) const;
 

@@ -87,11 +87,19 @@ TEST_CASE("options and meshes that cannot be coded are refused") {
   CHECK(cause_of([&] { encode({}, {}, silent); }) == Cause::NoFaces);
 }
 
+TEST_CASE("the finest precision fits at the deepest level") {
+  SemiregularMesh mesh = samples::refine(shapes::tetrahedron(), 7, [](const Vec3& p) { return Vec3(p.normalized()); });
+  EncodeOptions options;
+  options.precision_bits = 24;
+  const Bytes stream = encode(mesh, options, silent);
+  CHECK(rms_error(mesh, decode(stream, stream.size())) < 4.0 * std::ldexp(bounding_box_diagonal(mesh.mesh()), -(25 - 7)));
+}
+
 TEST_CASE("degenerate geometry and extreme places are coded") {
   const double tolerance = 1e-3;
   SemiregularMesh point = samples::refine(shapes::icosahedron(), 2, [](const Vec3&) { return Vec3(3, 4, 5); });
   Bytes stream = encode(point, {}, silent);
-  CHECK(rms_error(point, decode(stream, stream.size())) < 2.0);
+  CHECK(rms_error(point, decode(stream, stream.size())) < 1e-6);
   SemiregularMesh far = samples::refine(shapes::icosahedron(), 2, [](const Vec3& p) { return Vec3(p + Vec3(1e6, -1e6, 1e6)); });
   stream = encode(far, {}, silent);
   CHECK(rms_error(far, decode(stream, stream.size())) < tolerance);
