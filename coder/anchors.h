@@ -16,7 +16,8 @@ struct AnchorPoint {
   Mesh decoded;
 };
 
-/// Codes a triangle mesh by Draco's edgebreaker at its best compression (speed 0, the tool's -cl 10) and decodes it again.
+/// Codes a triangle mesh by Draco's edgebreaker at its best compression (speed 0, the tool's -cl 10) and decodes it
+/// again.
 AnchorPoint draco_round_trip(const Mesh& mesh, int quantization_bits);
 
 /// Quadric-error decimation (OpenMesh's decimater) to several face counts, largest first, in one pass.

@@ -14,7 +14,9 @@ namespace {
 
 constexpr int kNone = -1;
 
-std::uint64_t directed(int from, int to) { return (static_cast<std::uint64_t>(from) << 32) | static_cast<std::uint32_t>(to); }
+std::uint64_t directed(int from, int to) {
+  return (static_cast<std::uint64_t>(from) << 32) | static_cast<std::uint32_t>(to);
+}
 
 /// The part of the surface that both sides know: its faces and the cyclic borders around it. Half-edge 3f + k runs from
 /// corner k to corner k+1 of face f.
@@ -159,7 +161,8 @@ class ConnectivityCoder {
     // Clockwise around the gate's first vertex, then counter-clockwise around its second.
     const int before = surface.before(gate), after = surface.after(gate);
     for (const auto& [neighbour, pivot, vertex, which] :
-         {std::tuple{before, surface.from(gate), surface.from(before), 0}, std::tuple{after, surface.to(gate), surface.to(after), 1}}) {
+         {std::tuple{before, surface.from(gate), surface.from(before), 0},
+          std::tuple{after, surface.to(gate), surface.to(after), 1}}) {
       if (!surface.open(neighbour)) continue;
       AdaptiveBit& context = closes_[which][std::min(surface.faces_around[pivot], kFanClasses - 1)];
       if (side_.decide(actual.vertex == vertex, context)) {
@@ -264,7 +267,8 @@ CodedBase encode_connectivity(const std::vector<Triangle>& faces, Bytes& out) {
     if (gate == kNone) {
       for (int k = 0; k < 3; ++k) vertex(k, coder.code_seed_vertex(names.coded(names.source_corner(h, k))));
     } else {
-      const Third third = coder.code_third(gate, {h == kNone, h == kNone ? kNone : names.coded(names.source_corner(h, 2))});
+      const Third third =
+          coder.code_third(gate, {h == kNone, h == kNone ? kNone : names.coded(names.source_corner(h, 2))});
       if (third.boundary) {
         surface.close_as_boundary(gate);
         continue;

@@ -12,20 +12,20 @@ using Bytes = std::vector<std::uint8_t>;
 /// Base faces in the order in which they are coded, and what they were called before.
 struct CodedBase {
   int vertices = 0;
-  std::vector<Triangle> faces;        ///< vertices numbered by first appearance
-  std::vector<int> source_vertex;     ///< #V, index in the encoder's input
-  std::vector<int> source_face;       ///< #F, index in the encoder's input
-  std::vector<int> source_corner;     ///< #F, corner of that face which is corner 0 here
+  std::vector<Triangle> faces;     ///< vertices numbered by first appearance
+  std::vector<int> source_vertex;  ///< #V, index in the encoder's input
+  std::vector<int> source_face;    ///< #F, index in the encoder's input
+  std::vector<int> source_corner;  ///< #F, corner of that face which is corner 0 here
 };
 
-/// Appends the connectivity of any oriented triangle mesh without edges of more than two faces: faces are added one by one
-/// at an open side, always closing the fan of one vertex first, and each costs what the valences so far leave uncertain
-/// (Touma and Gotsman 1998 in spirit; handles, boundaries and several components need no special case).
-/// O(F). The faces must have passed `base_level`. Vertices without a face are lost.
+/// Appends the connectivity of any oriented triangle mesh without edges of more than two faces: faces are added one by
+/// one at an open side, always closing the fan of one vertex first, and each costs what the valences so far leave
+/// uncertain (Touma and Gotsman 1998 in spirit; handles, boundaries and several components need no special case). O(F).
+/// The faces must have passed `base_level`. Vertices without a face are lost.
 CodedBase encode_connectivity(const std::vector<Triangle>& faces, Bytes& out);
 
-/// Reads `face_count` faces back from [begin, end); `source_*` stay empty. Takes memory in proportion to the faces that the
-/// bytes really hold. Throws Error(BadStream).
+/// Reads `face_count` faces back from [begin, end); `source_*` stay empty. Takes memory in proportion to the faces that
+/// the bytes really hold. Throws Error(BadStream).
 CodedBase decode_connectivity(int face_count, const std::uint8_t* begin, const std::uint8_t* end);
 
 }  // namespace gsp

@@ -21,8 +21,8 @@ struct AdaptiveBit {
 int stretch(Probability set);
 Probability squash(int logit);
 
-/// One kind of decision, predicted by N contexts at once, whose opinions are weighed in the logistic domain by weights that
-/// are learned on line (Mahoney, "Adaptive weighing of context models for lossless data compression", 2005).
+/// One kind of decision, predicted by N contexts at once, whose opinions are weighed in the logistic domain by weights
+/// that are learned on line (Mahoney, "Adaptive weighing of context models for lossless data compression", 2005).
 template <int N>
 class MixedModel {
  public:

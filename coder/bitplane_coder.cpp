@@ -112,7 +112,8 @@ class BitplaneCoder {
         const int fine_place = static_cast<int>(std::clamp(std::floor(x * 12.0), -16.0, 15.0)) + 16;
         const int width = octave(static_cast<std::uint64_t>(4.0 * spread / unit), 8);
         const bool actual = actual_ && (actual_->base[v][k] >> plane & 1);
-        const bool bit = base_model_.decide(side_, actual, {place, place * 8 + width, fine_place, place / 2 * 32 + plane}, 0);
+        const bool bit =
+            base_model_.decide(side_, actual, {place, place * 8 + width, fine_place, place / 2 * 32 + plane}, 0);
         known_.base[v][k] |= static_cast<std::uint32_t>(bit) << plane;
         known_.base_low_plane[v][k] = plane;
       }
@@ -137,15 +138,17 @@ class BitplaneCoder {
     }
   }
 
-  /// Whether descendants of `n` may be significant at `plane`. Beside anything significant they are coded one by one, for
-  /// their contexts say more than a tree could; elsewhere the stream says once for the whole tree that there are none.
+  /// Whether descendants of `n` may be significant at `plane`. Beside anything significant they are coded one by one,
+  /// for their contexts say more than a tree could; elsewhere the stream says once for the whole tree that there are
+  /// none.
   bool has_descendants(int plane, int level, int c, int n) {
     std::uint8_t& open = descendants_[c][n];
     if (!open) open = known_.details[c].magnitude[n] != 0 || ring(0, c, n) != 0;
     std::uint8_t& low_plane = descendants_low_plane_[c][n];
     while (!open && low_plane > plane) {
       const int parent = forest_.parent[n];
-      if (parent < 0 || has_descendants(low_plane - 1, level - 1, c, parent)) open = find_descendants(low_plane - 1, level, c, n);
+      if (parent < 0 || has_descendants(low_plane - 1, level - 1, c, parent))
+        open = find_descendants(low_plane - 1, level, c, n);
       --low_plane;
     }
     return open;
@@ -200,9 +203,10 @@ class BitplaneCoder {
   void refine(int plane, int level, int c, int n) {
     const int size = octave(known_.details[c].magnitude[n] >> (plane + 1), 5);
     const int a = octave(ring(plane, c, n), 8), p = octave(parent_magnitude(plane, c, n), 8);
-    const bool bit = refinement_model_.decide(
-        side_, actual_ && (actual_->details[c].magnitude[n] >> plane & 1),
-        {tuple_index(size, 5, a, 8), tuple_index(size, 5, c, 3), tuple_index(size, 5, level, kLevels), tuple_index(size, 5, p, 8)}, 0);
+    const bool bit = refinement_model_.decide(side_, actual_ && (actual_->details[c].magnitude[n] >> plane & 1),
+                                              {tuple_index(size, 5, a, 8), tuple_index(size, 5, c, 3),
+                                               tuple_index(size, 5, level, kLevels), tuple_index(size, 5, p, 8)},
+                                              0);
     if (bit) grow(plane, c, n);
   }
 
@@ -230,14 +234,16 @@ class BitplaneCoder {
   Side& side_;
   BitplaneCoefficients known_;
   std::array<std::vector<std::uint8_t>, 3> descendants_;  ///< 1 once descendants are coded one by one
-  std::array<std::vector<std::uint8_t>, 3> descendants_low_plane_;  ///< above and at it, a closed tree is known to be empty
-  std::array<std::vector<std::uint64_t>, 3> children_;              ///< sum of the children's known magnitudes
-  std::array<std::vector<std::uint32_t>, 3> largest_;               ///< encoder only: largest magnitude of all descendants
+  std::array<std::vector<std::uint8_t>, 3>
+      descendants_low_plane_;                           ///< above and at it, a closed tree is known to be empty
+  std::array<std::vector<std::uint64_t>, 3> children_;  ///< sum of the children's known magnitudes
+  std::array<std::vector<std::uint32_t>, 3> largest_;   ///< encoder only: largest magnitude of all descendants
   std::vector<std::int8_t> urgency_;
 
   static constexpr int kLevels = kMaxSubdivisionLevel + 1;
   MixedModel<4> base_model_{{16, 16 * 8, 32, 8 * 32}, 1};
-  MixedModel<6> significance_model_{{2 * 2 * 2 * 10 * 8, 3 * 32 * kLevels, 3 * 2 * 6 * 8, 2 * 10 * kLevels, 2 * 7 * 8 * 8, 3 * 10 * 10}, 2};
+  MixedModel<6> significance_model_{
+      {2 * 2 * 2 * 10 * 8, 3 * 32 * kLevels, 3 * 2 * 6 * 8, 2 * 10 * kLevels, 2 * 7 * 8 * 8, 3 * 10 * 10}, 2};
   MixedModel<4> refinement_model_{{5 * 8, 5 * 3, 5 * kLevels, 5 * 8}, 1};
   MixedModel<4> descendants_model_{{3 * 5 * 3, 3 * 32 * kLevels, 2 * 6 * kLevels, 2 * 8}, 2};
 };

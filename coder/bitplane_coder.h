@@ -36,15 +36,15 @@ using Urgency = std::function<std::vector<std::int8_t>(const BitplaneCoefficient
 
 /// What encoder and decoder must agree on besides the forest.
 struct BitplaneLayout {
-  int base_planes = 0;    ///< bits of a base coordinate, 0..31
-  int detail_planes = 0;  ///< bits of the largest detail magnitude, 0..31
+  int base_planes = 0;                            ///< bits of a base coordinate, 0..31
+  int detail_planes = 0;                          ///< bits of the largest detail magnitude, 0..31
   std::vector<std::vector<int>> base_neighbours;  ///< #B, adjacent base vertices
   Urgency urgency;
 };
 
-/// Appends the embedded stream to `out`: bits in the order of their plane and their node's urgency; in each pass the base
-/// positions first, then the details level by level. A node's bits end at plane (kMaxUrgency - urgency) / kPassesPerPlane,
-/// so that all end at the same importance.
+/// Appends the embedded stream to `out`: bits in the order of their plane and their node's urgency; in each pass the
+/// base positions first, then the details level by level. A node's bits end at plane (kMaxUrgency - urgency) /
+/// kPassesPerPlane, so that all end at the same importance.
 void encode_bitplanes(const EdgeForest& forest, const BitplaneLayout& layout, const BitplaneCoefficients& coefficients,
                       Bytes& out);
 

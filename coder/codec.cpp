@@ -23,14 +23,16 @@ void check(const SemiregularMesh& mesh, const EncodeOptions& options) {
     throw Error(Cause::BadOption, "precision_bits " + std::to_string(options.precision_bits) + " is not in 8..24");
   if (options.tangential_ratio < 1 || options.tangential_ratio > 8 ||
       !std::has_single_bit(static_cast<unsigned>(options.tangential_ratio)))
-    throw Error(Cause::BadOption, "tangential_ratio " + std::to_string(options.tangential_ratio) + " is not 1, 2, 4 or 8");
+    throw Error(Cause::BadOption,
+                "tangential_ratio " + std::to_string(options.tangential_ratio) + " is not 1, 2, 4 or 8");
   if (mesh.base_faces.empty()) throw Error(Cause::NoFaces, "a mesh without base faces cannot be coded");
   // Squares and their sums must stay finite.
   constexpr double kLargest = 1e100;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
     for (double x : mesh.positions[v])
       if (!(std::abs(x) <= kLargest))
-        throw Error(Cause::NonFinite, "a coordinate is not finite or too large", Element::Vertex, static_cast<long long>(v));
+        throw Error(Cause::NonFinite, "a coordinate is not finite or too large", Element::Vertex,
+                    static_cast<long long>(v));
   std::vector<bool> used(mesh.base_vertices, false);
   for (const Triangle& t : base_level(mesh.base_vertices, mesh.base_faces).faces)
     for (int v : t) used[v] = true;
@@ -83,7 +85,8 @@ struct Structure {
 
 const char* wavelet_name(Wavelet wavelet) {
   switch (wavelet) {
-    case Wavelet::Loop: return "loop";
+    case Wavelet::Loop:
+      return "loop";
   }
   return "unknown";
 }
@@ -130,8 +133,8 @@ SemiregularMesh decode(const Bytes& stream, std::size_t budget) {
   const StreamHeader header = read_header(begin, begin + stream.size());
 
   const Structure structure(header);
-  const BitplaneCoefficients known = decode_bitplanes(structure.forest, structure.layout(), begin + needed,
-                                                      begin + std::min(budget, stream.size()));
+  const BitplaneCoefficients known =
+      decode_bitplanes(structure.forest, structure.layout(), begin + needed, begin + std::min(budget, stream.size()));
   SemiregularMesh mesh;
   mesh.level = header.level;
   mesh.base_vertices = header.base.vertices;

@@ -18,20 +18,20 @@ const char* wavelet_name(Wavelet wavelet);
 struct EncodeOptions {
   Wavelet wavelet = Wavelet::Loop;
   /// Bits per coordinate of the finest quantization of normal components relative to the bounding box, 8..24.
-  /// It sets where the stream ends: the whole stream codes every coefficient to about this step, times the inverse square
-  /// root of the local over the mean triangle area. At most 25 less the number of levels is used.
+  /// It sets where the stream ends: the whole stream codes every coefficient to about this step, times the inverse
+  /// square root of the local over the mean triangle area. At most 25 less the number of levels is used.
   int precision_bits = 16;
   /// Step of tangential components over that of normal ones, a power of two: 1, 2, 4, 8.
   int tangential_ratio = 4;
 };
 
-/// Codes a semi-regular mesh as an embedded stream: a checksummed header with the base connectivity, then bit-planes, most
-/// significant first. Any prefix that holds the header decodes (design.md, `*.pgc`).
+/// Codes a semi-regular mesh as an embedded stream: a checksummed header with the base connectivity, then bit-planes,
+/// most significant first. Any prefix that holds the header decodes (design.md, `*.pgc`).
 ///
 /// A decoder numbers base vertices and faces, and with them all finer vertices, in the order in which they were coded;
 /// `coded_vertex_order` (coder/coded_order.h) says which vertex became which.
-/// Throws Error: BadOption, NoFaces, NonFinite, Malformed (a base vertex without a face), SolverFailed, and the errors of
-/// `base_level`.
+/// Throws Error: BadOption, NoFaces, NonFinite, Malformed (a base vertex without a face), SolverFailed, and the errors
+/// of `base_level`.
 Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress& progress);
 
 /// Number of bytes that a prefix needs at least. Throws Error(BadStream).

@@ -4,12 +4,14 @@ namespace gsp {
 
 namespace {
 
-/// Faces of one level in the coded numbering, and in the source's which face each is and which of its corners is corner 0.
+/// Faces of one level in the coded numbering, and in the source's which face each is and which of its corners is corner
+/// 0.
 struct FaceMap {
   std::vector<int> source, corner;
 };
 
-/// Child k keeps corner k, so children turn with their parent; the middle child is the mean of all corners and turns too.
+/// Child k keeps corner k, so children turn with their parent; the middle child is the mean of all corners and turns
+/// too.
 FaceMap children(const FaceMap& parents) {
   FaceMap map;
   map.source.reserve(4 * parents.source.size());

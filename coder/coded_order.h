@@ -7,8 +7,8 @@
 
 namespace gsp {
 
-/// #V of the finest level: the vertex of a mesh with `mesh`'s base that a decoder will give this index. Coding renumbers
-/// base vertices and faces and turns faces' corners, and with them every finer vertex. O(V + F).
+/// #V of the finest level: the vertex of a mesh with `mesh`'s base that a decoder will give this index. Coding
+/// renumbers base vertices and faces and turns faces' corners, and with them every finer vertex. O(V + F).
 std::vector<int> coded_vertex_order(const SemiregularMesh& mesh, const CodedBase& base);
 
 /// The mesh as a decoder will number it.

@@ -47,7 +47,8 @@ Mesh from_draco(const draco::Mesh& coded) {
   }
   for (draco::FaceIndex f(0); f < coded.num_faces(); ++f) {
     const draco::Mesh::Face& face = coded.face(f);
-    mesh.faces.push_back({static_cast<int>(face[0].value()), static_cast<int>(face[1].value()), static_cast<int>(face[2].value())});
+    mesh.faces.push_back(
+        {static_cast<int>(face[0].value()), static_cast<int>(face[1].value()), static_cast<int>(face[2].value())});
   }
   return mesh;
 }
@@ -60,7 +61,8 @@ void require(const draco::Status& status) {
 
 AnchorPoint draco_round_trip(const Mesh& mesh, int quantization_bits) {
   if (quantization_bits < 1 || quantization_bits > 30)
-    throw Error(Cause::BadOption, "Draco's quantization of " + std::to_string(quantization_bits) + " bits is not in 1..30");
+    throw Error(Cause::BadOption,
+                "Draco's quantization of " + std::to_string(quantization_bits) + " bits is not in 1..30");
   if (mesh.faces.empty()) throw Error(Cause::NoFaces, "Draco codes surfaces with at least one face");
   const std::unique_ptr<draco::Mesh> input = to_draco(mesh);
   draco::Encoder encoder;

@@ -7,9 +7,9 @@
 
 namespace gsp {
 
-/// The trees of edges over which details are coded (algorithms.md §6; Khodakovsky, Schröder, Sweldens 2000). A node is the
-/// detail of one edge; nodes are numbered level by level in edge order, roots (the base edges) first. The children of an
-/// edge are its two halves and the parallel edge inside each of its triangles.
+/// The trees of edges over which details are coded (algorithms.md §6; Khodakovsky, Schröder, Sweldens 2000). A node is
+/// the detail of one edge; nodes are numbered level by level in edge order, roots (the base edges) first. The children
+/// of an edge are its two halves and the parallel edge inside each of its triangles.
 struct EdgeForest {
   static constexpr int kNone = -1;
 

@@ -13,7 +13,7 @@ namespace {
 std::int8_t urgency_of(double ratio) {
   static_assert(kPassesPerPlane == 4);
   int exponent = 0;
-  const double mantissa = std::frexp(ratio, &exponent);  // in [1/2, 1)
+  const double mantissa = std::frexp(ratio, &exponent);                                 // in [1/2, 1)
   constexpr double kQuarter = 0.5946035575013605, kThreeQuarters = 0.8408964152537145;  // 2^-3/4, 2^-1/4
   const int half_octaves = 2 * exponent - (mantissa < kQuarter ? 2 : mantissa < kThreeQuarters ? 1 : 0);
   return static_cast<std::int8_t>(std::clamp(half_octaves, -kMaxUrgency, kMaxUrgency));

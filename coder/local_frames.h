@@ -11,8 +11,9 @@ namespace gsp {
 /// Columns: unit normal, unit tangent along the edge, their cross product. Orthonormal.
 using Frame = Eigen::Matrix3d;
 
-/// One frame per edge of a level, from its vertices' positions: the mean normal of the edge's faces and the edge direction
-/// made orthogonal to it. Degenerate geometry falls back on fixed axes, so frames are always orthonormal. O(F).
+/// One frame per edge of a level, from its vertices' positions: the mean normal of the edge's faces and the edge
+/// direction made orthogonal to it. Degenerate geometry falls back on fixed axes, so frames are always orthonormal.
+/// O(F).
 std::vector<Frame> edge_frames(const SubdivisionLevel& level, const std::vector<Vec3>& positions);
 
 }  // namespace gsp

@@ -1,5 +1,6 @@
 #include "coder/loop_filters.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -45,8 +46,11 @@ class HighPass {
  public:
   explicit HighPass(const SubdivisionLevel& coarse) : level_(coarse), fans_(fans(coarse)) {}
 
-  std::vector<Triplet> build() {
+  SparseMatrix build() {
     boundary_neighbours();
+    // Column by column and then turned: several times faster than sorting all taps by row.
+    Eigen::SparseMatrix<double> columns(level_.vertex_count + level_.edge_count(), level_.edge_count());
+    columns.reserve(19 * static_cast<Eigen::Index>(level_.edge_count()));
     for (int e = 0; e < level_.edge_count(); ++e) {
       taps_.clear();
       if (level_.edge_faces[e][1] < 0)
@@ -54,9 +58,12 @@ class HighPass {
       else
         interior_column(e);
       balance();
-      for (const Tap& tap : taps_) triplets_.emplace_back(tap.vertex, e, tap.weight);
+      std::sort(taps_.begin(), taps_.end(), [](const Tap& a, const Tap& b) { return a.vertex < b.vertex; });
+      columns.startVec(e);
+      for (const Tap& tap : taps_) columns.insertBack(tap.vertex, e) = tap.weight;
     }
-    return std::move(triplets_);
+    columns.finalize();
+    return columns;
   }
 
  private:
@@ -175,7 +182,6 @@ class HighPass {
   std::vector<Fan> fans_;
   std::vector<std::array<int, 2>> boundary_edges_;
   std::vector<Tap> taps_;
-  std::vector<Triplet> triplets_;
 };
 
 }  // namespace
@@ -186,33 +192,31 @@ SparseMatrix loop_low_pass(const SubdivisionLevel& coarse) {
   std::vector<Triplet> triplets;
   triplets.reserve(vertices + 6 * static_cast<std::size_t>(edges));
   for (int v = 0; v < vertices; ++v) {
-    const Fan& f = fan[v];
-    const double kept = f.boundary_edges == 0 ? (f.valence == 0 ? 1.0 : kept_weight(f.valence)) : f.boundary_edges == 2 ? 0.75 : 1.0;
-    triplets.emplace_back(v, v, kept);
+    const auto [valence, boundary_edges] = fan[v];
+    const bool inside = boundary_edges == 0 && valence > 0;
+    triplets.emplace_back(v, v, inside ? kept_weight(valence) : boundary_edges == 2 ? 0.75 : 1.0);
   }
   for (int e = 0; e < edges; ++e) {
     const auto [a, b] = coarse.edges[e];
     const auto [left, right] = coarse.edge_faces[e];
+    const bool boundary = right < 0;
     for (const auto& [v, other] : {std::pair{a, b}, std::pair{b, a}}) {
-      if (fan[v].boundary_edges == 0) triplets.emplace_back(v, other, (1.0 - kept_weight(fan[v].valence)) / fan[v].valence);
-      if (fan[v].boundary_edges == 2 && right < 0) triplets.emplace_back(v, other, 0.125);
+      if (fan[v].boundary_edges == 0)
+        triplets.emplace_back(v, other, (1.0 - kept_weight(fan[v].valence)) / fan[v].valence);
+      if (fan[v].boundary_edges == 2 && boundary) triplets.emplace_back(v, other, 0.125);
     }
-    triplets.emplace_back(vertices + e, a, right < 0 ? 0.5 : 0.375);
-    triplets.emplace_back(vertices + e, b, right < 0 ? 0.5 : 0.375);
-    if (right < 0) continue;
-    triplets.emplace_back(vertices + e, third_vertex(coarse.faces[left], a, b), 0.125);
-    triplets.emplace_back(vertices + e, third_vertex(coarse.faces[right], a, b), 0.125);
+    const int odd = vertices + e;
+    triplets.emplace_back(odd, a, boundary ? 0.5 : 0.375);
+    triplets.emplace_back(odd, b, boundary ? 0.5 : 0.375);
+    if (boundary) continue;
+    triplets.emplace_back(odd, third_vertex(coarse.faces[left], a, b), 0.125);
+    triplets.emplace_back(odd, third_vertex(coarse.faces[right], a, b), 0.125);
   }
   SparseMatrix matrix(vertices + edges, vertices);
   matrix.setFromTriplets(triplets.begin(), triplets.end());
   return matrix;
 }
 
-SparseMatrix loop_high_pass(const SubdivisionLevel& coarse) {
-  const std::vector<Triplet> triplets = HighPass(coarse).build();
-  SparseMatrix matrix(coarse.vertex_count + coarse.edge_count(), coarse.edge_count());
-  matrix.setFromTriplets(triplets.begin(), triplets.end());
-  return matrix;
-}
+SparseMatrix loop_high_pass(const SubdivisionLevel& coarse) { return HighPass(coarse).build(); }
 
 }  // namespace gsp

@@ -8,13 +8,14 @@ namespace gsp {
 
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// Loop subdivision as a matrix from the vertices of a level to those of the next: smooth rules inside, the cubic spline's
-/// on boundaries, vertices with other than two boundary edges fixed (algorithms.md §5; Loop 1987, Hoppe et al. 1994).
+/// Loop subdivision as a matrix from the vertices of a level to those of the next: smooth rules inside, the cubic
+/// spline's on boundaries, vertices with other than two boundary edges fixed (algorithms.md §5; Loop 1987, Hoppe et al.
+/// 1994).
 SparseMatrix loop_low_pass(const SubdivisionLevel& coarse);
 
 /// The quadrature-mirror high-pass of the progressive geometry coder (Khodakovsky, Schröder, Sweldens 2000): one column
-/// per edge of the coarse level, centred on the vertex that the edge inserts. Loop's mask with signs alternating, 19 taps
-/// on a regular lattice. Beside irregular vertices and boundaries the taps that do not exist are left out, and the
+/// per edge of the coarse level, centred on the vertex that the edge inserts. Loop's mask with signs alternating, 19
+/// taps on a regular lattice. Beside irregular vertices and boundaries the taps that do not exist are left out, and the
 /// column's zero sum is restored on its even taps. Boundary edges take the cubic spline's mask.
 SparseMatrix loop_high_pass(const SubdivisionLevel& coarse);
 

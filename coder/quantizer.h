@@ -11,8 +11,8 @@ namespace gsp {
 /// surface: the step of normal details doubles per finer level, tangential details take `header.tangential_ratio` times
 /// it, base positions the coarsest level's share. Sets the header's step exponent, origin and plane counts.
 /// `details[l]` are in local frames: normal, two tangential components.
-BitplaneCoefficients quantize(const std::vector<Vec3>& base, const std::vector<std::vector<Vec3>>& details, double diagonal,
-                              int precision_bits, StreamHeader& header);
+BitplaneCoefficients quantize(const std::vector<Vec3>& base, const std::vector<std::vector<Vec3>>& details,
+                              double diagonal, int precision_bits, StreamHeader& header);
 
 /// The inverse, each value at the centre of what is known of it.
 std::vector<Vec3> dequantize_base(const BitplaneCoefficients& integers, const StreamHeader& header);

@@ -54,8 +54,8 @@ class RangeEncoder {
 /// Thrown by RangeDecoder at the first decision that its bytes do not settle.
 struct StreamEnd {};
 
-/// The inverse. Past its last byte it goes on for as long as all continuations agree, then throws StreamEnd, so a prefix
-/// yields exactly the decisions that it determines and never a guess.
+/// The inverse. Past its last byte it goes on for as long as all continuations agree, then throws StreamEnd, so a
+/// prefix yields exactly the decisions that it determines and never a guess.
 class RangeDecoder {
  public:
   RangeDecoder(const std::uint8_t* begin, const std::uint8_t* end) : next_(begin), end_(end) {

@@ -21,7 +21,8 @@ constexpr std::size_t kGrain = 8192;
 void add_product(const SparseMatrix& matrix, const Vec3* x, std::size_t begin, std::size_t end, Points& y) {
   for (std::size_t r = begin; r < end; ++r) {
     Vec3 sum = y[r];
-    for (SparseMatrix::InnerIterator it(matrix, static_cast<Eigen::Index>(r)); it; ++it) sum += it.value() * x[it.col()];
+    for (SparseMatrix::InnerIterator it(matrix, static_cast<Eigen::Index>(r)); it; ++it)
+      sum += it.value() * x[it.col()];
     y[r] = sum;
   }
 }

@@ -29,9 +29,9 @@ class WaveletTransform {
     int iterations = 0;  ///< of the iterative solver
   };
 
-  /// Solves [P Q][c; d] = x to rounding (relative residual 1e-13 in each coordinate). Time in proportion to the vertices:
-  /// about 40 iterations of two products with [P Q], the same bits for any number of threads.
-  /// Throws Error(SolverFailed) where it does not converge.
+  /// Solves [P Q][c; d] = x to rounding (relative residual 1e-13 in each coordinate). Time in proportion to the
+  /// vertices: about 40 iterations of two products with [P Q], the same bits for any number of threads. Throws
+  /// Error(SolverFailed) where it does not converge.
   Split analysis(int level, const std::vector<Vec3>& fine) const;
 
  private:

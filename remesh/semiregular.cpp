@@ -51,7 +51,8 @@ SubdivisionLevel base_level(int base_vertices, const std::vector<Triangle>& base
         if (level.edge_faces[edge][1] >= 0)
           throw Error(Cause::NonManifoldEdge, "a base edge has more than two faces", Element::Face, f);
         if (level.edges[edge][0] == from)
-          throw Error(Cause::InconsistentOrientation, "two base faces run through an edge the same way", Element::Face, f);
+          throw Error(Cause::InconsistentOrientation, "two base faces run through an edge the same way", Element::Face,
+                      f);
       }
       add_side(level, f, k, edge);
     }
@@ -101,10 +102,11 @@ SubdivisionLevel subdivide(const SubdivisionLevel& coarse) {
   return fine;
 }
 
-std::vector<SubdivisionLevel> subdivision_levels(int base_vertices, const std::vector<Triangle>& base_faces, int level) {
+std::vector<SubdivisionLevel> subdivision_levels(int base_vertices, const std::vector<Triangle>& base_faces,
+                                                 int level) {
   if (level < 0 || level > kMaxSubdivisionLevel)
-    throw Error(Cause::BadOption, "subdivision level " + std::to_string(level) + " is not in 0.." +
-                                      std::to_string(kMaxSubdivisionLevel));
+    throw Error(Cause::BadOption,
+                "subdivision level " + std::to_string(level) + " is not in 0.." + std::to_string(kMaxSubdivisionLevel));
   std::vector<SubdivisionLevel> levels;
   levels.reserve(level + 1);
   levels.push_back(base_level(base_vertices, base_faces));

@@ -7,8 +7,8 @@
 
 namespace gsp {
 
-/// One level of a semi-regular mesh's connectivity. Vertex and face numbering is fixed by these rules, so that connectivity
-/// is a function of the base faces and the level alone:
+/// One level of a semi-regular mesh's connectivity. Vertex and face numbering is fixed by these rules, so that
+/// connectivity is a function of the base faces and the level alone:
 /// - edges are numbered by first appearance over the faces, corner order (0,1), (1,2), (2,0);
 /// - the vertex inserted on edge e of a level with V vertices is V + e on the next;
 /// - face f = (a,b,c) with midpoints (ab, bc, ca) becomes faces 4f..4f+3 = (a,ab,ca), (ab,b,bc), (ca,bc,c), (ab,bc,ca).
@@ -26,8 +26,8 @@ struct SubdivisionLevel {
 /// Deepest level that any part of gsp makes or reads: 4^10 faces for each base face.
 inline constexpr int kMaxSubdivisionLevel = 10;
 
-/// The base level. Throws Error: IndexOutOfRange, DegenerateFace, NonManifoldEdge, InconsistentOrientation, each with the
-/// face. O(F).
+/// The base level. Throws Error: IndexOutOfRange, DegenerateFace, NonManifoldEdge, InconsistentOrientation, each with
+/// the face. O(F).
 SubdivisionLevel base_level(int base_vertices, const std::vector<Triangle>& base_faces);
 
 /// One quadrisection. O(F), without a search: every finer edge is a half of a coarse edge or lies inside a coarse face.

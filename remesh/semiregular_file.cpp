@@ -23,7 +23,8 @@ std::optional<Counts> read_counts(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   Counts counts;
   bool signed_by_us = false;
-  // A header longer than this is none of ours; without a limit a binary file would be searched to its end for a newline.
+  // A header longer than this is none of ours; without a limit a binary file would be searched to its end for a
+  // newline.
   constexpr int kHeaderLines = 200;
   std::string line;
   for (int n = 0; n < kHeaderLines && std::getline(in, line) && line.rfind("end_header", 0) != 0; ++n) {

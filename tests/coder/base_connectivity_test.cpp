@@ -19,8 +19,9 @@ CodedBase decoded(const Bytes& bytes, std::size_t faces) {
 }  // namespace
 
 TEST_CASE("connectivity comes back as the renumbering that the encoder names") {
-  for (const Mesh& mesh : {shapes::tetrahedron(), shapes::sphere(2), shapes::torus(7, 5), shapes::grid(4, 3), shapes::genus_slab(3, 1),
-                           shapes::sector_disc(3, 0), shapes::twice(shapes::grid(2, 2), Vec3(9, 0, 0))}) {
+  for (const Mesh& mesh :
+       {shapes::tetrahedron(), shapes::sphere(2), shapes::torus(7, 5), shapes::grid(4, 3), shapes::genus_slab(3, 1),
+        shapes::sector_disc(3, 0), shapes::twice(shapes::grid(2, 2), Vec3(9, 0, 0))}) {
     Bytes bytes;
     const CodedBase sent = encode_connectivity(mesh.faces, bytes);
     const CodedBase received = decoded(bytes, mesh.faces.size());

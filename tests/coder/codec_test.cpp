@@ -36,8 +36,8 @@ double rms_error(const SemiregularMesh& mesh, const SemiregularMesh& decoded) {
 }  // namespace
 
 TEST_CASE("the whole stream holds the mesh to its precision") {
-  for (const SemiregularMesh& mesh : {samples::bumpy_sphere(4), samples::wavy_sheet(3),
-                                      samples::noise(shapes::icosahedron(), 0)}) {
+  for (const SemiregularMesh& mesh :
+       {samples::bumpy_sphere(4), samples::wavy_sheet(3), samples::noise(shapes::icosahedron(), 0)}) {
     const double diagonal = bounding_box_diagonal(mesh.mesh());
     for (int bits : {10, 16, 22}) {
       EncodeOptions options;
@@ -92,7 +92,8 @@ TEST_CASE("the finest precision fits at the deepest level") {
   EncodeOptions options;
   options.precision_bits = 24;
   const Bytes stream = encode(mesh, options, silent);
-  CHECK(rms_error(mesh, decode(stream, stream.size())) < 4.0 * std::ldexp(bounding_box_diagonal(mesh.mesh()), -(25 - 7)));
+  CHECK(rms_error(mesh, decode(stream, stream.size())) <
+        4.0 * std::ldexp(bounding_box_diagonal(mesh.mesh()), -(25 - 7)));
 }
 
 TEST_CASE("degenerate geometry and extreme places are coded") {
@@ -100,7 +101,8 @@ TEST_CASE("degenerate geometry and extreme places are coded") {
   SemiregularMesh point = samples::refine(shapes::icosahedron(), 2, [](const Vec3&) { return Vec3(3, 4, 5); });
   Bytes stream = encode(point, {}, silent);
   CHECK(rms_error(point, decode(stream, stream.size())) < 1e-6);
-  SemiregularMesh far = samples::refine(shapes::icosahedron(), 2, [](const Vec3& p) { return Vec3(p + Vec3(1e6, -1e6, 1e6)); });
+  SemiregularMesh far =
+      samples::refine(shapes::icosahedron(), 2, [](const Vec3& p) { return Vec3(p + Vec3(1e6, -1e6, 1e6)); });
   stream = encode(far, {}, silent);
   CHECK(rms_error(far, decode(stream, stream.size())) < tolerance);
   SemiregularMesh tiny = samples::refine(shapes::icosahedron(), 2, [](const Vec3& p) { return Vec3(p * 1e-30); });

@@ -40,7 +40,8 @@ inline SemiregularMesh wavy_sheet(int level) {
 /// Positions without any smoothness.
 inline SemiregularMesh noise(const Mesh& base, int level) {
   Random random(11);
-  return refine(base, level, [&](const Vec3& p) { return Vec3(p + Vec3(random.uniform(), random.uniform(), random.uniform())); });
+  return refine(base, level,
+                [&](const Vec3& p) { return Vec3(p + Vec3(random.uniform(), random.uniform(), random.uniform())); });
 }
 
 }  // namespace gsp::samples

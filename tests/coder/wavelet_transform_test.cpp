@@ -56,15 +56,18 @@ std::vector<double> detail_sizes(const SemiregularMesh& mesh) {
 }  // namespace
 
 TEST_CASE("filters sum to one and to zero on every base, boundaries and odd valences included") {
-  for (const Mesh& base : {shapes::tetrahedron(), shapes::grid(2, 3), shapes::lattice_torus(5, 4), bipyramid(9), shapes::sector_disc(5, 1)})
+  for (const Mesh& base : {shapes::tetrahedron(), shapes::grid(2, 3), shapes::lattice_torus(5, 4), bipyramid(9),
+                           shapes::sector_disc(5, 1)})
     for (const SubdivisionLevel& level : levels_of(base, 2)) {
       const SparseMatrix low = loop_low_pass(level), high = loop_high_pass(level);
-      CHECK((low * Eigen::VectorXd::Ones(low.cols()) - Eigen::VectorXd::Ones(low.rows())).cwiseAbs().maxCoeff() < 1e-14);
+      CHECK((low * Eigen::VectorXd::Ones(low.cols()) - Eigen::VectorXd::Ones(low.rows())).cwiseAbs().maxCoeff() <
+            1e-14);
       CHECK((high.transpose() * Eigen::VectorXd::Ones(high.rows())).cwiseAbs().maxCoeff() < 1e-14);
     }
 }
 
-TEST_CASE("the regular high-pass is the 19-tap quadrature mirror of Loop's mask, nearly orthogonal to the coarse space") {
+TEST_CASE(
+    "the regular high-pass is the 19-tap quadrature mirror of Loop's mask, nearly orthogonal to the coarse space") {
   const SubdivisionLevel level = levels_of(shapes::lattice_torus(8, 8), 0)[0];
   const SparseMatrix low = loop_low_pass(level), high = loop_high_pass(level);
   for (int e = 0; e < high.cols(); ++e) {
@@ -118,7 +121,8 @@ TEST_CASE("the low-pass reproduces linear functions on a regular lattice, so the
 }
 
 TEST_CASE("details of a smooth surface decay with the level") {
-  // C2 parameters would give a factor of 8 and more; inside each patch of this base they are smooth, across edges only C0.
+  // C2 parameters would give a factor of 8 and more; inside each patch of this base they are smooth, across edges only
+  // C0.
   const std::vector<double> torus = detail_sizes([] {
     constexpr int kColumns = 6, kRows = 6;
     SemiregularMesh flat = samples::refine(shapes::lattice_torus(kColumns, kRows), 0, [](const Vec3& p) { return p; });
