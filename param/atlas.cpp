@@ -121,17 +121,19 @@ Atlas::FaceFrame Atlas::face_frame(int face) const {
   const Transition third = frame.to_chart[(reference + 2) % 3];
   const Transition between = along(Halfedges::next(out), false);  // from the third's chart to the second's
   const int turns = fan.boundary ? 1 : fan.valence(), turns1 = fan1.boundary ? 1 : fan1.valence();
+  bool closed = false;
   for (int m = 0; m < turns; ++m) {
-    // A turn by m full circles has the rotation by m·valence sixths; powers of it are all there are.
     const Transition candidate = turn(fan, frame.chart, m * fan.valence()) * third;
     const Complex z2 = candidate.apply(position[t[(reference + 2) % 3]]);
-    if (chart_area(z0, z1, z2) <= 0.0) continue;
     for (int n = 0; n < turns1; ++n) {
       const Transition other = frame.to_chart[(reference + 1) % 3] *
                                turn(fan1, patch[t[(reference + 1) % 3]], n * fan1.valence()) * between;
       if (std::abs(other.apply(position[t[(reference + 2) % 3]]) - z2) > 1e-9) continue;
+      const bool upright = chart_area(z0, z1, z2) > 0.0;
+      if (closed && !upright) continue;
       frame.to_chart[(reference + 2) % 3] = candidate;
-      return frame;
+      closed = true;
+      if (upright) return frame;
     }
   }
   return frame;

@@ -146,6 +146,7 @@ bool Relaxation::lift() {
   const auto visit = [&](int i) {
     done[i] = 1;
     const DiscVertex& v = vertices_[i];
+    if (atlas_.corner[v.vertex] >= 0) return;  // transitions at a corner hold up to turns only
     surface().for_each_neighbour(v.vertex, [&](int w, int edge, bool forward) {
       const auto at = index_.find(w);
       if (at == index_.end() || done[at->second]) return;

@@ -267,7 +267,11 @@ class Repair {
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
     if (vertices.empty()) return;
     Disc disc(atlas_, vertices, faces);
-    if (!disc.untangle()) return;
+    if (!disc.untangle()) {
+      progress_.note("a disc of " + std::to_string(faces.size()) + " faces around face " + std::to_string(faces.front()) +
+                     " did not come free");
+      return;
+    }
     disc.write_back();
     ++report.regions;
     report.vertices_moved += static_cast<int>(vertices.size());
