@@ -120,7 +120,7 @@ Atlas::FaceFrame Atlas::face_frame(int face) const {
   const Complex z0 = position[t[reference]], z1 = frame.to_chart[(reference + 1) % 3].apply(position[t[(reference + 1) % 3]]);
   const Transition third = frame.to_chart[(reference + 2) % 3];
   const Transition between = along(Halfedges::next(out), false);  // from the third's chart to the second's
-  const int turns = fan.boundary ? 1 : fan.valence(), turns1 = fan1.boundary ? 1 : fan1.valence();
+  const int turns = fan.boundary ? 1 : 6, turns1 = fan1.boundary ? 1 : 6;  // six turns are the identity
   bool closed = false;
   for (int m = 0; m < turns; ++m) {
     const Transition candidate = turn(fan, frame.chart, m * fan.valence()) * third;

@@ -7,6 +7,7 @@
 #include "mesh/topology.h"
 #include "param/global_system.h"
 #include "param/maps_smoothing.h"
+#include "param/refine.h"
 #include "param/relax_corners.h"
 #include "param/repair.h"
 #include "param/simplify.h"
@@ -38,6 +39,11 @@ std::vector<std::string> provenance(const ParameterizeOptions& options, Method m
           line("mu", options.mu),                      line("relaxations", options.relaxations)};
 }
 
+void refine_for_map(Atlas& atlas, Progress& progress) {
+  const int added = refine_at_corners(atlas);
+  if (added > 0) progress.note(std::to_string(added) + " vertices were added beside patch corners");
+}
+
 /// Alternates global solves and corner relaxation (§3.3, steps 2 to 4) and keeps the round of least stretch: relaxation
 /// removes folds and shear, but carried on it drives the corners toward a conformal map, which starves long limbs.
 void solve_and_relax(Atlas& atlas, const ParameterizeOptions& options, ParameterizeResult& result, Progress& progress) {
@@ -65,9 +71,11 @@ ParameterizeResult finish(Atlas atlas, Method method, const ParameterizeOptions&
   ParameterizeResult result;
   if (method == Method::MapsSmoothed) smooth_by_loop(atlas, progress);
   if (method == Method::Gsp) {
+    refine_for_map(atlas, progress);
     const std::vector<int> first_corners = atlas.base.vertices;
     solve_and_relax(atlas, options, result, progress);
     for (int b = 0; b < atlas.base.vertex_count(); ++b) result.corners_moved += atlas.base.vertices[b] != first_corners[b];
+    refine_for_map(atlas, progress);
     result.flips_before_repair = repair_folds(atlas, progress).flipped_before;
   }
   result.map = atlas.finish(provenance(options, method, atlas));

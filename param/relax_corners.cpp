@@ -282,9 +282,19 @@ bool Relaxation::closed(const Move& move) const {
     int h = start;
     do {
       const int a = surface().halfedges.to(h), b = surface().halfedges.to(Halfedges::next(h));
-      if (!is_corner(v.vertex) && !is_corner(a) && !is_corner(b) &&
-          !(across(h) * across(Halfedges::next(h)) * across(Halfedges::prev(h))).is_identity())
-        return false;
+      const Transition forth = across(h), beside = across(Halfedges::next(h)), back = across(Halfedges::prev(h));
+      if (!is_corner(v.vertex)) {
+        // At a corner transitions hold up to turns about it, so only where it lies can be compared.
+        const Transition round = forth * beside;
+        const Transition direct = back.inverse();
+        if (!is_corner(a) && !is_corner(b) && !(round == direct)) return false;
+        if (!is_corner(a) && is_corner(b) && b != move.new_corner &&
+            std::abs(round.apply(atlas_.position[b]) - direct.apply(atlas_.position[b])) > 1e-6)
+          return false;
+        if (is_corner(a) && !is_corner(b) && a != move.new_corner &&
+            std::abs((direct * beside.inverse()).apply(atlas_.position[a]) - forth.apply(atlas_.position[a])) > 1e-6)
+          return false;
+      }
       h = surface().halfedges.rotate_ccw(h);
     } while (h != start);
   }
