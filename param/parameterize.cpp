@@ -5,6 +5,7 @@
 
 #include "mesh/atomic_file.h"
 #include "mesh/topology.h"
+#include "param/folds.h"
 #include "param/global_system.h"
 #include "param/maps_smoothing.h"
 #include "param/refine.h"
@@ -67,6 +68,13 @@ void solve_and_relax(Atlas& atlas, const ParameterizeOptions& options, Parameter
   atlas = std::move(best);
 }
 
+/// Smallest regions first, so that as little as possible of the smooth solution is replaced.
+void settle_all_corners(Atlas& atlas, Progress& progress) {
+  progress.report("settle corners", 0.0);
+  const auto weights = mean_value_weights(*atlas.surface);
+  for (double radius : {0.08, 0.12, 0.18, 0.27, 0.4}) settle_corners(atlas, weights, radius);
+}
+
 ParameterizeResult finish(Atlas atlas, Method method, const ParameterizeOptions& options, Progress& progress) {
   ParameterizeResult result;
   if (method == Method::MapsSmoothed) smooth_by_loop(atlas, progress);
@@ -76,7 +84,9 @@ ParameterizeResult finish(Atlas atlas, Method method, const ParameterizeOptions&
     solve_and_relax(atlas, options, result, progress);
     for (int b = 0; b < atlas.base.vertex_count(); ++b) result.corners_moved += atlas.base.vertices[b] != first_corners[b];
     refine_for_map(atlas, progress);
-    result.flips_before_repair = repair_folds(atlas, progress).flipped_before;
+    result.flips_before_repair = static_cast<int>(find_folds(atlas).faces.size());
+    settle_all_corners(atlas, progress);
+    repair_folds(atlas, progress);
   }
   result.map = atlas.finish(provenance(options, method, atlas));
   if (method == Method::Gsp) {

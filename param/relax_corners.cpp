@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "mesh/parallel.h"
+#include "param/folds.h"
 #include "param/sparse_solver.h"
 
 namespace gsp {
@@ -56,11 +57,22 @@ class Relaxation {
   /// False where the corner stays.
   bool run(Move& move) {
     if (fan_.boundary || !collect() || !solve() || !embedded()) return false;
-    int nearest = 0;
-    for (std::size_t i = 1; i < vertices_.size(); ++i)
-      if (vertices_[i].inside && std::norm(vertices_[i].disc) < std::norm(vertices_[nearest].disc))
-        nearest = static_cast<int>(i);
+    const int nearest = nearest_to_center();
     if (nearest == 0) return false;
+    move.new_corner = vertices_[nearest].vertex;
+    place(nearest, move);
+    return closed(move);
+  }
+
+  /// Lays the whole region out from the disc, with the vertex nearest 0 drawn onto it. False where the region needs no help
+  /// (none of its vertices is marked) or the result would still be folded.
+  bool settle(const std::vector<char>& marked, Move& move) {
+    if (fan_.boundary || !collect()) return false;
+    if (std::none_of(vertices_.begin(), vertices_.end(), [&](const DiscVertex& v) { return v.inside && marked[v.vertex]; }))
+      return false;
+    if (!solve() || !embedded()) return false;
+    const int nearest = nearest_to_center();
+    if (!draw_to_center(nearest) || !embedded() || !upright_in_plane(nearest)) return false;
     move.new_corner = vertices_[nearest].vertex;
     place(nearest, move);
     return closed(move);
@@ -72,6 +84,9 @@ class Relaxation {
   bool lift();
   bool solve();
   bool embedded() const;
+  int nearest_to_center() const;
+  bool draw_to_center(int nearest);
+  bool upright_in_plane(int nearest) const;
   void place(int nearest, Move& move);
   bool closed(const Move& move) const;
 
@@ -221,6 +236,54 @@ bool Relaxation::embedded() const {
   return true;
 }
 
+int Relaxation::nearest_to_center() const {
+  int nearest = 0;
+  for (std::size_t i = 1; i < vertices_.size(); ++i)
+    if (vertices_[i].inside && std::norm(vertices_[i].disc) < std::norm(vertices_[nearest].disc))
+      nearest = static_cast<int>(i);
+  return nearest;
+}
+
+/// Moves the disc's middle so that the vertex lies at 0: a shift that fades out smoothly toward the rim.
+bool Relaxation::draw_to_center(int nearest) {
+  double rim = 1e300;
+  for (const DiscVertex& v : vertices_)
+    if (!v.inside) rim = std::min(rim, std::abs(v.disc));
+  const Complex shift = vertices_[nearest].disc;
+  if (std::abs(shift) > 0.4 * rim) return false;
+  for (DiscVertex& v : vertices_) {
+    if (!v.inside) continue;
+    const double r = std::abs(v.disc - shift) / rim;
+    if (r < 1.0) v.disc -= shift * (1.0 - r * r) * (1.0 - r * r);
+  }
+  vertices_[nearest].disc = 0.0;
+  return true;
+}
+
+/// Whether every face that the region moves has positive area once the disc is taken back to the charts by z^(k/6).
+bool Relaxation::upright_in_plane(int nearest) const {
+  const double power = fan_.valence() / 6.0;
+  for (const DiscVertex& v : vertices_) {
+    if (!v.inside) continue;
+    const int start = surface().halfedges.outgoing[v.vertex];
+    int h = start;
+    do {
+      const int corners[3] = {index_.at(v.vertex), index_.at(surface().halfedges.to(h)),
+                              index_.at(surface().halfedges.to(Halfedges::next(h)))};
+      const int first = corners[0] == nearest ? 1 : 0;
+      Complex plane[3];
+      for (int k = 0; k < 3; ++k) {
+        if (corners[k] == nearest) continue;
+        const Complex z = vertices_[corners[k]].disc;
+        plane[k] = std::polar(std::pow(std::abs(z), power), std::arg(z / vertices_[corners[first]].disc) * power);
+      }
+      if (!upright(plane[0], plane[1], plane[2])) return false;
+      h = surface().halfedges.rotate_ccw(h);
+    } while (h != start);
+  }
+  return true;
+}
+
 void Relaxation::place(int nearest, Move& move) {
   const double power = fan_.valence() / 6.0;
   // New frames of all inside vertices; the rim keeps its own.
@@ -301,13 +364,13 @@ bool Relaxation::closed(const Move& move) const {
   return true;
 }
 
-}  // namespace
-
-int relax_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weights, double radius) {
+/// Computes every corner's move in parallel, then makes those that do not overlap, in the order of the base vertices.
+template <class Compute>
+int move_corners(Atlas& atlas, Compute&& compute) {
   std::vector<Move> moves(atlas.fans.size());
   parallel_for(moves.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b)
-      if (Relaxation(atlas, weights, radius, static_cast<int>(b)).run(moves[b])) moves[b].base_vertex = static_cast<int>(b);
+      if (compute(static_cast<int>(b), moves[b])) moves[b].base_vertex = static_cast<int>(b);
   });
   int moved = 0;
   std::vector<char> inside(atlas.surface->mesh.positions.size(), 0), rim(inside);
@@ -332,6 +395,21 @@ int relax_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weight
     for (const NewTransition& t : move.transitions) atlas.transition[t.edge] = t.transition;
   }
   return moved;
+}
+
+}  // namespace
+
+int relax_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weights, double radius) {
+  return move_corners(atlas, [&](int b, Move& move) { return Relaxation(atlas, weights, radius, b).run(move); });
+}
+
+int settle_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weights, double radius) {
+  const Folds folds = find_folds(atlas);
+  std::vector<char> marked(atlas.patch.size(), 0);
+  for (int f : folds.faces)
+    for (int v : atlas.surface->mesh.faces[f]) marked[v] = 1;
+  for (int v : folds.vertices) marked[v] = 1;
+  return move_corners(atlas, [&](int b, Move& move) { return Relaxation(atlas, weights, radius, b).settle(marked, move); });
 }
 
 }  // namespace gsp

@@ -14,4 +14,9 @@ namespace gsp {
 /// other and computed in parallel. Returns the corners that moved; the global system has to be solved again.
 int relax_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weights, double radius);
 
+/// Where the solution is folded or wrongly wound beside a corner, lays out the region of `radius` around it from the disc
+/// instead, with the vertex nearest 0 drawn onto it: the winding is right by construction. Only regions that come out free
+/// of folds are taken. Returns how many. The global solution outside the regions stays.
+int settle_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weights, double radius);
+
 }  // namespace gsp

@@ -7,12 +7,12 @@
 #include <lbfgs.h>
 
 #include "mesh/error.h"
+#include "param/folds.h"
 
 namespace gsp {
 
 namespace {
 
-constexpr double kSmallestArea = 1e-15;     // chart units: clear of rounding
 constexpr double kFlattestReference = 0.05; // height over longest side of a reference triangle
 constexpr double kAreaWeight = 0.02;        // λ
 constexpr int kFirstRings = 3;
@@ -21,7 +21,7 @@ constexpr int kOuterSteps = 60;
 constexpr int kInnerSteps = 200;
 constexpr int kPolishSteps = 30;
 
-bool positive(const std::array<Complex, 3>& z) { return chart_area(z[0], z[1], z[2]) > kSmallestArea; }
+bool positive(const std::array<Complex, 3>& z) { return upright(z[0], z[1], z[2]); }
 
 /// The triangle laid into the plane, kept away from degenerate shapes.
 Eigen::Matrix2d reference_shape(const Mesh& mesh, const Triangle& t, double mean_length) {
@@ -194,38 +194,38 @@ class Repair {
 
   RepairReport run() {
     RepairReport report;
-    std::vector<int> folded = folded_faces();
-    report.flipped_before = static_cast<int>(folded.size());
-    for (int rings = kFirstRings; !folded.empty(); rings *= 2) {
-      if (rings > kLargestRings)
-        throw Error(Cause::InvalidMap,
-                    std::to_string(folded.size()) + " faces stay folded in their chart", Element::Face, folded.front());
-      untangle_all(folded, rings, report);
-      folded = folded_faces();
+    Folds folds = find_folds(atlas_);
+    report.flipped_before = static_cast<int>(folds.faces.size());
+    for (int rings = kFirstRings; !folds.none(); rings *= 2) {
+      if (rings > kLargestRings) give_up(folds);
+      untangle_all(folds, rings, report);
+      folds = find_folds(atlas_);
     }
     return report;
   }
 
  private:
-  std::vector<int> folded_faces() const {
-    std::vector<int> folded;
-    for (int f = 0; f < surface_.mesh.face_count(); ++f)
-      if (!positive(atlas_.face_corners(f, atlas_.face_frame(f)))) folded.push_back(f);
-    return folded;
+  [[noreturn]] static void give_up(const Folds& folds) {
+    const std::string counts = std::to_string(folds.faces.size()) + " faces stay folded in their chart and " +
+                               std::to_string(folds.vertices.size()) + " vertices wrongly wound";
+    if (folds.faces.empty()) throw Error(Cause::InvalidMap, counts, Element::Vertex, folds.vertices.front());
+    throw Error(Cause::InvalidMap, counts, Element::Face, folds.faces.front());
   }
 
   bool is_free(int v) const { return atlas_.corner[v] < 0 && !surface_.halfedges.boundary_vertex(v); }
 
-  void untangle_all(const std::vector<int>& folded, int rings, RepairReport& report) {
+  void untangle_all(const Folds& folds, int rings, RepairReport& report) {
     // Rings of vertices around the folded faces; those that meet form one disc.
     std::vector<int> distance(surface_.mesh.positions.size(), -1);
     std::vector<int> reached;
-    for (int f : folded)
-      for (int v : surface_.mesh.faces[f])
-        if (distance[v] < 0) {
-          distance[v] = 0;
-          reached.push_back(v);
-        }
+    const auto start = [&](int v) {
+      if (distance[v] >= 0) return;
+      distance[v] = 0;
+      reached.push_back(v);
+    };
+    for (int f : folds.faces)
+      for (int v : surface_.mesh.faces[f]) start(v);
+    for (int v : folds.vertices) start(v);
     for (std::size_t i = 0; i < reached.size(); ++i) {
       const int v = reached[i];
       if (distance[v] >= rings) continue;
@@ -267,12 +267,21 @@ class Repair {
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
     if (vertices.empty()) return;
     Disc disc(atlas_, vertices, faces);
-    if (!disc.untangle()) {
+    std::vector<Complex> before;
+    for (int v : vertices) before.push_back(atlas_.position[v]);
+    const bool free = disc.untangle();
+    if (free) disc.write_back();
+    // All areas can be positive while a corner has lost a full turn to a neighbour.
+    const bool right = free && std::all_of(faces.begin(), faces.end(), [&](int f) {
+      const Triangle& t = surface_.mesh.faces[f];
+      return std::all_of(t.begin(), t.end(), [&](int v) { return wound_rightly(atlas_, v); });
+    });
+    if (!right) {
+      for (std::size_t i = 0; i < vertices.size(); ++i) atlas_.position[vertices[i]] = before[i];
       progress_.note("a disc of " + std::to_string(faces.size()) + " faces around face " + std::to_string(faces.front()) +
                      " did not come free");
       return;
     }
-    disc.write_back();
     ++report.regions;
     report.vertices_moved += static_cast<int>(vertices.size());
   }

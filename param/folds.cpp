@@ -1,0 +1,60 @@
+#include "param/folds.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace gsp {
+
+namespace {
+constexpr double kSmallestArea = 1e-15;  // chart units
+
+double angle_at(const std::array<Complex, 3>& z, int k) {
+  return std::abs(std::arg((z[(k + 2) % 3] - z[k]) * std::conj(z[(k + 1) % 3] - z[k])));
+}
+
+/// Wrong sums are off by full turns.
+bool is_right_angle_sum(const Atlas& atlas, int vertex, double sum) {
+  double expected = 2.0 * std::numbers::pi;
+  if (atlas.corner[vertex] >= 0)
+    expected = atlas.fans[atlas.corner[vertex]].valence() * std::numbers::pi / 3.0;
+  else if (atlas.surface->halfedges.boundary_vertex(vertex))
+    expected = std::numbers::pi;
+  return std::abs(sum - expected) < 1.0;
+}
+}  // namespace
+
+bool upright(Complex a, Complex b, Complex c) { return chart_area(a, b, c) > kSmallestArea; }
+
+Folds find_folds(const Atlas& atlas) {
+  const Surface& surface = *atlas.surface;
+  Folds folds;
+  std::vector<double> angle(atlas.patch.size(), 0.0);
+  std::vector<char> beside_fold(atlas.patch.size(), 0);
+  for (int f = 0; f < surface.mesh.face_count(); ++f) {
+    const auto z = atlas.face_corners(f, atlas.face_frame(f));
+    const Triangle& t = surface.mesh.faces[f];
+    if (!upright(z[0], z[1], z[2])) {
+      folds.faces.push_back(f);
+      for (int v : t) beside_fold[v] = 1;
+    }
+    for (int k = 0; k < 3; ++k) angle[t[k]] += angle_at(z, k);
+  }
+  for (std::size_t v = 0; v < angle.size(); ++v) {
+    if (atlas.patch[v] < 0 || beside_fold[v]) continue;
+    if (!is_right_angle_sum(atlas, static_cast<int>(v), angle[v])) folds.vertices.push_back(static_cast<int>(v));
+  }
+  return folds;
+}
+
+bool wound_rightly(const Atlas& atlas, int vertex) {
+  double sum = 0.0;
+  const int start = atlas.surface->halfedges.outgoing[vertex];
+  int h = start;
+  do {
+    sum += angle_at(atlas.face_corners(h / 3, atlas.face_frame(h / 3)), h % 3);
+    h = atlas.surface->halfedges.rotate_ccw(h);
+  } while (h >= 0 && h != start);
+  return is_right_angle_sum(atlas, vertex, sum);
+}
+
+}  // namespace gsp
