@@ -1,5 +1,7 @@
 #include "param/global_system.h"
 
+#include <algorithm>
+
 #include "mesh/error.h"
 #include "param/sparse_solver.h"
 
@@ -22,15 +24,22 @@ void move_to_boundary_chart(Atlas& atlas, int vertex, int base_halfedge) {
   throw Error(Cause::Internal, "a boundary vertex left its boundary edge", Element::Vertex, vertex);
 }
 
+double corner_distance(Complex z) {
+  return std::min({std::abs(z - kChartCorners[0].value()), std::abs(z - kChartCorners[1].value()),
+                   std::abs(z - kChartCorners[2].value())});
+}
+
 }  // namespace
 
-int solve_global(Atlas& atlas, const std::vector<std::array<double, 2>>& weights) {
+int solve_global(Atlas& atlas, const std::vector<std::array<double, 2>>& weights, double held_radius) {
   const Surface& surface = *atlas.surface;
   const int count = surface.mesh.vertex_count();
   std::vector<int> row(count, -1);
   int unknowns = 0;
   for (int v = 0; v < count; ++v)
-    if (atlas.patch[v] >= 0 && atlas.corner[v] < 0 && !surface.halfedges.boundary_vertex(v)) row[v] = unknowns++;
+    if (atlas.patch[v] >= 0 && atlas.corner[v] < 0 && !surface.halfedges.boundary_vertex(v) &&
+        corner_distance(atlas.position[v]) >= held_radius)
+      row[v] = unknowns++;
 
   std::vector<Eigen::Triplet<Complex>> entries;
   entries.reserve(unknowns * 7);

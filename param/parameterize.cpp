@@ -19,6 +19,7 @@ namespace gsp {
 
 namespace {
 
+constexpr double kHeldRadius = 0.2;         // of a base edge, see solve_global
 constexpr double kRelaxationRadius = 0.45;  // of a base edge; regions of radius below 1/2 never meet
 
 void check_options(const ParameterizeOptions& options) {
@@ -53,26 +54,26 @@ void solve_and_relax(Atlas& atlas, const ParameterizeOptions& options, Parameter
   Atlas best;
   double best_stretch = 0.0;
   for (int round = 0;; ++round) {
-    progress.report("solve", double(round) / (options.relaxations + 1));
-    solve_global(atlas, weights);
+    progress.report("solve and relax", double(round) / (options.relaxations + 1));
+    const int moved = round == 0 && options.relaxations == 0 ? 0 : relax_corners(atlas, weights, kRelaxationRadius);
+    solve_global(atlas, weights, options.relaxations == 0 ? 0.0 : kHeldRadius);
     const double stretch = l2_stretch(atlas);
     if (round == 0 || stretch < best_stretch) {
       best = atlas;
       best_stretch = stretch;
       result.relaxation_rounds = round;
     }
-    if (round == options.relaxations) break;
-    const int moved = relax_corners(atlas, weights, kRelaxationRadius);
-    if (moved == 0) break;
+    if (round >= options.relaxations || moved == 0) break;
   }
   atlas = std::move(best);
 }
 
 /// Smallest regions first, so that as little as possible of the smooth solution is replaced.
-void settle_all_corners(Atlas& atlas, Progress& progress) {
-  progress.report("settle corners", 0.0);
+void untangle(Atlas& atlas, Progress& progress) {
+  progress.report("untangle", 0.0);
   const auto weights = mean_value_weights(*atlas.surface);
   for (double radius : {0.08, 0.12, 0.18, 0.27, 0.4}) settle_corners(atlas, weights, radius);
+  repair_folds(atlas, weights, progress);
 }
 
 ParameterizeResult finish(Atlas atlas, Method method, const ParameterizeOptions& options, Progress& progress) {
@@ -85,8 +86,7 @@ ParameterizeResult finish(Atlas atlas, Method method, const ParameterizeOptions&
     for (int b = 0; b < atlas.base.vertex_count(); ++b) result.corners_moved += atlas.base.vertices[b] != first_corners[b];
     refine_for_map(atlas, progress);
     result.flips_before_repair = static_cast<int>(find_folds(atlas).faces.size());
-    settle_all_corners(atlas, progress);
-    repair_folds(atlas, progress);
+    untangle(atlas, progress);
   }
   result.map = atlas.finish(provenance(options, method, atlas));
   if (method == Method::Gsp) {

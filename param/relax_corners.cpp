@@ -15,6 +15,8 @@ namespace gsp {
 namespace {
 
 constexpr double kSector = std::numbers::pi / 3.0;
+constexpr int kMostRings = 24;      // of `unwind`
+constexpr double kRoundRim = 0.18;  // radius of a rim that is spread along a circle, in base edges
 
 /// One vertex of the region around a corner, seen from the corner.
 struct DiscVertex {
@@ -52,36 +54,53 @@ class Relaxation {
         radius_(radius),
         fan_(atlas.fans[base_vertex]),
         corner_(atlas.base.vertices[base_vertex]),
-        cone_(fan_.valence() * kSector) {}
+        cone_(fan_.valence() * kSector),
+        power_((fan_.boundary ? 3.0 : 6.0) / fan_.valence()) {}
 
-  /// False where the corner stays.
+  /// Lays the whole region out from the disc, with the vertex nearest 0 drawn onto it. Where that would leave a fold, only
+  /// moves the corner. False where the region is no disc or nothing would change for the better.
   bool run(Move& move) {
-    if (fan_.boundary || !collect() || !solve() || !embedded()) return false;
-    const int nearest = nearest_to_center();
-    if (nearest == 0) return false;
+    if (!collect() || !solve() || !embedded()) return false;
+    const int nearest = fan_.boundary ? 0 : nearest_to_center();
+    const std::vector<DiscVertex> solved = vertices_;
+    if (!draw_to_center(nearest) || !embedded() || !upright_in_plane(nearest)) {
+      if (nearest == 0) return false;
+      vertices_ = solved;
+    }
     move.new_corner = vertices_[nearest].vertex;
     place(nearest, move);
     return closed(move);
   }
 
-  /// Lays the whole region out from the disc, with the vertex nearest 0 drawn onto it. False where the region needs no help
-  /// (none of its vertices is marked) or the result would still be folded.
-  bool settle(const std::vector<char>& marked, Move& move) {
-    if (fan_.boundary || !collect()) return false;
-    if (std::none_of(vertices_.begin(), vertices_.end(), [&](const DiscVertex& v) { return v.inside && marked[v.vertex]; }))
-      return false;
-    if (!solve() || !embedded()) return false;
-    const int nearest = nearest_to_center();
+  /// The same for the vertices within so many rings of the corner, whatever their distance in the charts: a corner that lost
+  /// a full turn to a vertex near by gets it back once the rings reach round that vertex. Where the rim is no round curve it
+  /// is spread along a circle by arc length.
+  bool unwind(int rings, bool round_rim, Move& move) {
+    if (!gather_rings(rings) || !lift() || (round_rim && !spread_rim()) || !solve() || !embedded()) return false;
+    const int nearest = fan_.boundary ? 0 : nearest_to_center();
     if (!draw_to_center(nearest) || !embedded() || !upright_in_plane(nearest)) return false;
     move.new_corner = vertices_[nearest].vertex;
     place(nearest, move);
     return closed(move);
   }
 
+  /// Whether the region holds one of the marked vertices.
+  bool holds(const std::vector<char>& marked) {
+    gather();
+    const bool found = std::any_of(vertices_.begin(), vertices_.end(),
+                                   [&](const DiscVertex& v) { return v.inside && marked[v.vertex]; });
+    vertices_.clear();
+    index_.clear();
+    return found;
+  }
+
  private:
   bool collect();
   void gather();
+  bool gather_rings(int rings);
   bool lift();
+  bool spread_rim();
+  void straighten_border();
   bool solve();
   bool embedded() const;
   int nearest_to_center() const;
@@ -92,8 +111,7 @@ class Relaxation {
 
   const Surface& surface() const { return *atlas_.surface; }
   Complex to_disc(double radius, double angle) const {
-    const double power = 6.0 / fan_.valence();
-    return std::polar(std::pow(radius, power), angle * power);
+    return std::polar(std::pow(radius, power_), angle * power_);
   }
 
   const Atlas& atlas_;
@@ -101,7 +119,8 @@ class Relaxation {
   const double radius_;
   const BaseFan& fan_;
   const int corner_;
-  const double cone_;  ///< angle around the corner
+  const double cone_;   ///< angle around the corner
+  const double power_;  ///< of the map to the disc, or to the half disc of a boundary corner
   std::vector<DiscVertex> vertices_;  ///< [0] is the corner
   std::unordered_map<int, int> index_;
 };
@@ -117,15 +136,76 @@ void Relaxation::gather() {
     if (!index_.emplace(v, static_cast<int>(vertices_.size())).second) return;
     vertices_.push_back({v, inside, {}, 0.0, 0.0});
   };
-  add(corner_, true);
+  add(corner_, !fan_.boundary);
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
-    if (!vertices_[i].inside) continue;
+    if (i > 0 && !vertices_[i].inside) continue;
     surface().for_each_neighbour(vertices_[i].vertex, [&](int w, int, bool) {
       const int s = fan_.find(atlas_.patch[w]);
       add(w, s >= 0 && atlas_.corner[w] < 0 && !surface().halfedges.boundary_vertex(w) &&
                  std::abs(fan_.develop(s).apply(atlas_.position[w])) < radius_);
     });
   }
+}
+
+/// False where the rings meet another corner, or a boundary and the corner is inside.
+bool Relaxation::gather_rings(int rings) {
+  vertices_.assign(1, {corner_, !fan_.boundary, {}, 0.0, 0.0});
+  index_ = {{corner_, 0}};
+  std::vector<int> ring{0};
+  bool good = true;
+  for (std::size_t i = 0; i < vertices_.size() && good; ++i) {
+    if (ring[i] == rings) continue;
+    surface().for_each_neighbour(vertices_[i].vertex, [&](int w, int, bool) {
+      if (!index_.emplace(w, static_cast<int>(vertices_.size())).second) return;
+      ring.push_back(ring[i] + 1);
+      const bool near = ring.back() < rings, border = surface().halfedges.boundary_vertex(w);
+      good = good && !(near && (atlas_.corner[w] >= 0 || (border && !fan_.boundary)));
+      vertices_.push_back({w, near && !border, {}, 0.0, 0.0});
+    });
+  }
+  return good;
+}
+
+/// Places the rim on a circle by arc length, turned to agree with where it lies; false where the rim is no simple loop.
+bool Relaxation::spread_rim() {
+  if (fan_.boundary) return false;
+  std::unordered_map<int, int> next;
+  int rim_size = 0;
+  for (const DiscVertex& v : vertices_) {
+    if (!v.inside) {
+      ++rim_size;
+      continue;
+    }
+    const int start = surface().halfedges.outgoing[v.vertex];
+    int h = start;
+    do {
+      const int link = Halfedges::next(h);
+      const int a = index_.at(surface().halfedges.from(link)), b = index_.at(surface().halfedges.to(link));
+      if (!vertices_[a].inside && !vertices_[b].inside && !next.emplace(a, b).second) return false;
+      h = surface().halfedges.rotate_ccw(h);
+    } while (h != start);
+  }
+  if (next.empty()) return false;
+  std::vector<int> loop{next.begin()->first};
+  for (const auto& [a, b] : next) loop[0] = std::min(loop[0], a);
+  std::vector<double> length{0.0};
+  const auto& positions = surface().mesh.positions;
+  do {
+    const auto at = next.find(loop.back());
+    if (at == next.end() || static_cast<int>(loop.size()) > rim_size) return false;
+    length.push_back(length.back() + (positions[vertices_[at->second].vertex] - positions[vertices_[loop.back()].vertex]).norm());
+    loop.push_back(at->second);
+  } while (loop.back() != loop.front());
+  loop.pop_back();
+  if (static_cast<int>(loop.size()) != rim_size || !(length.back() > 0.0)) return false;
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  Complex agreement = 0.0;
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    agreement += std::polar(1.0, vertices_[loop[i]].angle * power_ - kTurn * length[i] / length.back());
+  const double start = std::arg(agreement), rim_radius = std::pow(radius_, power_);
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    vertices_[loop[i]].disc = std::polar(rim_radius, start + kTurn * length[i] / length.back());
+  return true;
 }
 
 /// Develops the region about the corner. The map may be folded next to the corner, so the plane is continued from the
@@ -185,7 +265,26 @@ bool Relaxation::lift() {
     v.disc = to_disc(next.radius, v.angle);
     visit(next.index);
   }
+  if (fan_.boundary) straighten_border();
   return reached == vertices_.size();
+}
+
+/// The boundary vertices of a boundary corner's region lie on the two straight sides of its sector, whatever the folds say.
+void Relaxation::straighten_border() {
+  const int last = fan_.valence() - 1;
+  for (std::size_t i = 1; i < vertices_.size(); ++i) {
+    DiscVertex& v = vertices_[i];
+    const int s = fan_.find(atlas_.patch[v.vertex]);
+    if (!surface().halfedges.boundary_vertex(v.vertex) || (s != 0 && s != last)) continue;
+    for (int side : {0, last}) {
+      const double angle = side == 0 ? 0.0 : cone_;
+      const Complex turned = fan_.develop(side).apply(atlas_.position[v.vertex]) * std::polar(1.0, -angle);
+      if (s != side || std::abs(turned.imag()) > 1e-9 || turned.real() <= 0.0) continue;
+      v.develop = fan_.develop(side);
+      v.angle = angle;
+      v.disc = to_disc(turned.real(), angle);
+    }
+  }
 }
 
 bool Relaxation::solve() {
@@ -248,7 +347,7 @@ int Relaxation::nearest_to_center() const {
 bool Relaxation::draw_to_center(int nearest) {
   double rim = 1e300;
   for (const DiscVertex& v : vertices_)
-    if (!v.inside) rim = std::min(rim, std::abs(v.disc));
+    if (!v.inside && v.vertex != corner_) rim = std::min(rim, std::abs(v.disc));
   const Complex shift = vertices_[nearest].disc;
   if (std::abs(shift) > 0.4 * rim) return false;
   for (DiscVertex& v : vertices_) {
@@ -262,7 +361,7 @@ bool Relaxation::draw_to_center(int nearest) {
 
 /// Whether every face that the region moves has positive area once the disc is taken back to the charts by z^(k/6).
 bool Relaxation::upright_in_plane(int nearest) const {
-  const double power = fan_.valence() / 6.0;
+  const double power = 1.0 / power_;
   for (const DiscVertex& v : vertices_) {
     if (!v.inside) continue;
     const int start = surface().halfedges.outgoing[v.vertex];
@@ -285,7 +384,7 @@ bool Relaxation::upright_in_plane(int nearest) const {
 }
 
 void Relaxation::place(int nearest, Move& move) {
-  const double power = fan_.valence() / 6.0;
+  const double power = 1.0 / power_;
   // New frames of all inside vertices; the rim keeps its own.
   for (const DiscVertex& v : vertices_)
     if (!v.inside) move.rim.push_back(v.vertex);
@@ -364,6 +463,15 @@ bool Relaxation::closed(const Move& move) const {
   return true;
 }
 
+std::vector<char> folded_vertices(const Atlas& atlas) {
+  const Folds folds = find_folds(atlas);
+  std::vector<char> marked(atlas.patch.size(), 0);
+  for (int f : folds.faces)
+    for (int v : atlas.surface->mesh.faces[f]) marked[v] = 1;
+  for (int v : folds.vertices) marked[v] = 1;
+  return marked;
+}
+
 /// Computes every corner's move in parallel, then makes those that do not overlap, in the order of the base vertices.
 template <class Compute>
 int move_corners(Atlas& atlas, Compute&& compute) {
@@ -403,13 +511,24 @@ int relax_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weight
   return move_corners(atlas, [&](int b, Move& move) { return Relaxation(atlas, weights, radius, b).run(move); });
 }
 
+int unwind_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weights) {
+  return move_corners(atlas, [&](int b, Move& move) {
+    if (wound_rightly(atlas, atlas.base.vertices[b])) return false;
+    for (int rings = 2; rings <= kMostRings; ++rings)
+      for (bool round_rim : {false, true}) {
+        move = {};
+        if (Relaxation(atlas, weights, kRoundRim, b).unwind(rings, round_rim, move)) return true;
+      }
+    return false;
+  });
+}
+
 int settle_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weights, double radius) {
-  const Folds folds = find_folds(atlas);
-  std::vector<char> marked(atlas.patch.size(), 0);
-  for (int f : folds.faces)
-    for (int v : atlas.surface->mesh.faces[f]) marked[v] = 1;
-  for (int v : folds.vertices) marked[v] = 1;
-  return move_corners(atlas, [&](int b, Move& move) { return Relaxation(atlas, weights, radius, b).settle(marked, move); });
+  const std::vector<char> marked = folded_vertices(atlas);
+  return move_corners(atlas, [&](int b, Move& move) {
+    Relaxation relaxation(atlas, weights, radius, b);
+    return relaxation.holds(marked) && relaxation.run(move);
+  });
 }
 
 }  // namespace gsp

@@ -19,4 +19,8 @@ int relax_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weight
 /// of folds are taken. Returns how many. The global solution outside the regions stays.
 int settle_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weights, double radius);
 
+/// Gives corners that lost a full turn to a vertex near by (see `Folds`) their winding back, each in the least number of
+/// rings that suffices, on a map without folded faces. Returns how many came right.
+int unwind_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weights);
+
 }  // namespace gsp

@@ -8,6 +8,7 @@
 
 #include "mesh/error.h"
 #include "param/folds.h"
+#include "param/relax_corners.h"
 
 namespace gsp {
 
@@ -17,7 +18,8 @@ constexpr double kFlattestReference = 0.05; // height over longest side of a ref
 constexpr double kAreaWeight = 0.02;        // λ
 constexpr int kFirstRings = 3;
 constexpr int kLargestRings = 96;
-constexpr int kOuterSteps = 60;
+constexpr int kOuterSteps = 40;
+constexpr double kSharpening = 0.7;  // of ε, from one step to the next
 constexpr int kInnerSteps = 200;
 constexpr int kPolishSteps = 30;
 
@@ -81,12 +83,12 @@ class Disc {
       x_[2 * i + 1] = atlas_.position[vertices_[i]].imag();
     }
     double least = least_determinant();
+    epsilon_ = 1.0;
     for (int step = 0; step < kOuterSteps && !(least > 0.0); ++step) {
-      epsilon_ = std::sqrt(1e-18 + 0.04 * least * least);
+      // As Garanzha et al. choose it, but never slower than geometrically: a step that gains nothing sharpens the barrier.
+      epsilon_ = std::max(std::min(kSharpening * epsilon_, std::sqrt(1e-18 + 0.04 * least * least)), 1e-7);
       minimise(kInnerSteps);
-      const double now = least_determinant();
-      if (!(now > 0.0) && step > 8 && now <= least * 0.999 + 1e-12 && ++stalled_ > 6) return false;
-      least = now;
+      least = least_determinant();
     }
     if (!(least > 0.0)) return false;
     epsilon_ = 1e-9;
@@ -185,12 +187,12 @@ class Disc {
   std::vector<Face> faces_;
   std::vector<double> x_;
   double epsilon_ = 1.0;
-  int stalled_ = 0;
 };
 
 class Repair {
  public:
-  Repair(Atlas& atlas, Progress& progress) : atlas_(atlas), surface_(*atlas.surface), progress_(progress) {}
+  Repair(Atlas& atlas, const std::vector<std::array<double, 2>>& weights, Progress& progress)
+      : atlas_(atlas), surface_(*atlas.surface), weights_(weights), progress_(progress) {}
 
   RepairReport run() {
     RepairReport report;
@@ -198,7 +200,8 @@ class Repair {
     report.flipped_before = static_cast<int>(folds.faces.size());
     for (int rings = kFirstRings; !folds.none(); rings *= 2) {
       if (rings > kLargestRings) give_up(folds);
-      untangle_all(folds, rings, report);
+      if (!folds.faces.empty()) untangle_all(folds, rings, report);
+      unwind_corners(atlas_, weights_);
       folds = find_folds(atlas_);
     }
     return report;
@@ -267,34 +270,26 @@ class Repair {
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
     if (vertices.empty()) return;
     Disc disc(atlas_, vertices, faces);
-    std::vector<Complex> before;
-    for (int v : vertices) before.push_back(atlas_.position[v]);
-    const bool free = disc.untangle();
-    if (free) disc.write_back();
-    // All areas can be positive while a corner has lost a full turn to a neighbour.
-    const bool right = free && std::all_of(faces.begin(), faces.end(), [&](int f) {
-      const Triangle& t = surface_.mesh.faces[f];
-      return std::all_of(t.begin(), t.end(), [&](int v) { return wound_rightly(atlas_, v); });
-    });
-    if (!right) {
-      for (std::size_t i = 0; i < vertices.size(); ++i) atlas_.position[vertices[i]] = before[i];
+    if (!disc.untangle()) {
       progress_.note("a disc of " + std::to_string(faces.size()) + " faces around face " + std::to_string(faces.front()) +
                      " did not come free");
       return;
     }
+    disc.write_back();
     ++report.regions;
     report.vertices_moved += static_cast<int>(vertices.size());
   }
 
   Atlas& atlas_;
   const Surface& surface_;
+  const std::vector<std::array<double, 2>>& weights_;
   Progress& progress_;
 };
 
 }  // namespace
 
-RepairReport repair_folds(Atlas& atlas, Progress& progress) {
-  const RepairReport report = Repair(atlas, progress).run();
+RepairReport repair_folds(Atlas& atlas, const std::vector<std::array<double, 2>>& weights, Progress& progress) {
+  const RepairReport report = Repair(atlas, weights, progress).run();
   for (int v = 0; v < atlas.surface->mesh.vertex_count(); ++v)
     if (atlas.patch[v] >= 0 && atlas.corner[v] < 0 && !atlas.surface->halfedges.boundary_vertex(v)) atlas.reassign(v);
   return report;
