@@ -16,8 +16,7 @@ namespace {
 
 constexpr double kFlattestReference = 0.05; // height over longest side of a reference triangle
 constexpr double kAreaWeight = 0.02;        // λ
-constexpr int kFirstRings = 3;
-constexpr int kLargestRings = 96;
+constexpr int kRings[] = {3, 3, 3, 5, 5, 5, 8, 8, 8, 12, 12, 12, 16, 16, 16, 24, 24, 24};
 constexpr int kOuterSteps = 40;
 constexpr double kSharpening = 0.7;  // of ε, from one step to the next
 constexpr int kInnerSteps = 200;
@@ -198,12 +197,14 @@ class Repair {
     RepairReport report;
     Folds folds = find_folds(atlas_);
     report.flipped_before = static_cast<int>(folds.faces.size());
-    for (int rings = kFirstRings; !folds.none(); rings *= 2) {
-      if (rings > kLargestRings) give_up(folds);
+    // Small discs first and more than once: unwinding a corner opens new ways.
+    for (int rings : kRings) {
+      if (folds.none()) return report;
       if (!folds.faces.empty()) untangle_all(folds, rings, report);
       unwind_corners(atlas_, weights_);
       folds = find_folds(atlas_);
     }
+    if (!folds.none()) give_up(folds);
     return report;
   }
 
