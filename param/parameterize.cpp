@@ -1,6 +1,7 @@
 #include "param/parameterize.h"
 
 #include <iomanip>
+#include <optional>
 #include <sstream>
 
 #include "mesh/atomic_file.h"
@@ -19,8 +20,14 @@ namespace gsp {
 
 namespace {
 
-constexpr double kHeldRadius = 0.2;         // of a base edge, see solve_global
-constexpr double kRelaxationRadius = 0.45;  // of a base edge; regions of radius below 1/2 never meet
+/// How solving and relaxing alternate; radii in base edges, relaxation below 1/2 so that regions never meet.
+struct Schedule {
+  double relaxation_radius;
+  double held_radius;  ///< see solve_global
+};
+
+/// The paper's own first; where its solution cannot be untangled, the vertices beside the corners are held more and more.
+constexpr Schedule kSchedules[] = {{0.45, 0.0}, {0.45, 0.2}, {0.33, 0.1}, {0.33, 0.2}, {0.25, 0.1}, {0.25, 0.2}};
 
 void check_options(const ParameterizeOptions& options) {
   if (options.base_vertices != 0 && options.base_vertices < 4)
@@ -48,15 +55,16 @@ void refine_for_map(Atlas& atlas, Progress& progress) {
 
 /// Alternates global solves and corner relaxation (§3.3, steps 2 to 4) and keeps the round of least stretch: relaxation
 /// removes folds and shear, but carried on it drives the corners toward a conformal map, which starves long limbs.
-void solve_and_relax(Atlas& atlas, const ParameterizeOptions& options, ParameterizeResult& result, Progress& progress) {
+void solve_and_relax(Atlas& atlas, const Schedule& schedule, const ParameterizeOptions& options,
+                     ParameterizeResult& result, Progress& progress) {
   place_boundary(atlas);
   const auto weights = mean_value_weights(*atlas.surface);
   Atlas best;
   double best_stretch = 0.0;
   for (int round = 0;; ++round) {
     progress.report("solve and relax", double(round) / (options.relaxations + 1));
-    const int moved = round == 0 && options.relaxations == 0 ? 0 : relax_corners(atlas, weights, kRelaxationRadius);
-    solve_global(atlas, weights, options.relaxations == 0 ? 0.0 : kHeldRadius);
+    const int moved = round == 0 && options.relaxations == 0 ? 0 : relax_corners(atlas, weights, schedule.relaxation_radius);
+    solve_global(atlas, weights, options.relaxations == 0 ? 0.0 : schedule.held_radius);
     const double stretch = l2_stretch(atlas);
     if (round == 0 || stretch < best_stretch) {
       best = atlas;
@@ -76,18 +84,35 @@ void untangle(Atlas& atlas, Progress& progress) {
   repair_folds(atlas, weights, progress);
 }
 
+/// The paper's method with the repair: goes through the schedules until one gives a valid map.
+/// Throws the first schedule's Error(InvalidMap) where none does.
+Atlas smooth_map(const Atlas& initial, const ParameterizeOptions& options, ParameterizeResult& result,
+                 Progress& progress) {
+  std::optional<Error> first_failure;
+  for (const Schedule& schedule : kSchedules) {
+    Atlas atlas = initial;
+    try {
+      refine_for_map(atlas, progress);
+      solve_and_relax(atlas, schedule, options, result, progress);
+      refine_for_map(atlas, progress);
+      result.flips_before_repair = static_cast<int>(find_folds(atlas).faces.size());
+      untangle(atlas, progress);
+      for (int b = 0; b < atlas.base.vertex_count(); ++b)
+        result.corners_moved += atlas.base.vertices[b] != initial.base.vertices[b];
+      return atlas;
+    } catch (const Error& error) {
+      if (error.cause() != Cause::InvalidMap) throw;
+      progress.note(std::string(error.what()) + "; trying the next schedule");
+      if (!first_failure) first_failure = error;
+    }
+  }
+  throw *first_failure;
+}
+
 ParameterizeResult finish(Atlas atlas, Method method, const ParameterizeOptions& options, Progress& progress) {
   ParameterizeResult result;
   if (method == Method::MapsSmoothed) smooth_by_loop(atlas, progress);
-  if (method == Method::Gsp) {
-    refine_for_map(atlas, progress);
-    const std::vector<int> first_corners = atlas.base.vertices;
-    solve_and_relax(atlas, options, result, progress);
-    for (int b = 0; b < atlas.base.vertex_count(); ++b) result.corners_moved += atlas.base.vertices[b] != first_corners[b];
-    refine_for_map(atlas, progress);
-    result.flips_before_repair = static_cast<int>(find_folds(atlas).faces.size());
-    untangle(atlas, progress);
-  }
+  if (method == Method::Gsp) atlas = smooth_map(atlas, options, result, progress);
   result.map = atlas.finish(provenance(options, method, atlas));
   if (method == Method::Gsp) {
     const MapCheck check = check_map(result.map);

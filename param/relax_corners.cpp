@@ -385,6 +385,7 @@ bool Relaxation::upright_in_plane(int nearest) const {
 
 void Relaxation::place(int nearest, Move& move) {
   const double power = 1.0 / power_;
+  vertices_[0].develop = fan_.develop(fan_.find(atlas_.patch[corner_]));
   // New frames of all inside vertices; the rim keeps its own.
   for (const DiscVertex& v : vertices_)
     if (!v.inside) move.rim.push_back(v.vertex);
@@ -416,7 +417,7 @@ void Relaxation::place(int nearest, Move& move) {
         // The edge is straight in the disc: it passes the corner on one side, which says by how many full turns the two
         // planes differ.
         const double along = v.angle + std::arg(other.disc / v.disc) * power;
-        const int turns = static_cast<int>(std::lround((along - other.angle) / cone_));
+        const int turns = fan_.boundary ? 0 : static_cast<int>(std::lround((along - other.angle) / cone_));
         const int sixths = turns * fan_.valence();
         to_other_plane = Transition{((sixths % 6) + 6) % 6, {}} * to_other_plane;
       }

@@ -1,0 +1,176 @@
+#include <catch2/catch.hpp>
+#include <memory>
+
+#include "mesh/error.h"
+#include "mesh/parallel.h"
+#include "mesh/shapes.h"
+#include "param/folds.h"
+#include "param/global_system.h"
+#include "param/maps_smoothing.h"
+#include "param/parameterize.h"
+#include "param/refine.h"
+#include "param/relax_corners.h"
+#include "param/simplify.h"
+#include "param/weights.h"
+
+using namespace gsp;
+
+namespace {
+
+Atlas simplified(Mesh mesh, int base_vertices) {
+  split_boundary_chords(mesh);
+  ParameterizeOptions options;
+  options.base_vertices = base_vertices;
+  Progress progress;
+  return simplify(std::make_shared<const Surface>(std::move(mesh)), options, progress).atlas;
+}
+
+/// The invariant of the exact transitions: whatever the positions, the signed areas sum to that of the base.
+double area_excess(const Atlas& atlas) {
+  double sum = 0.0;
+  for (int f = 0; f < atlas.surface->mesh.face_count(); ++f) {
+    const auto z = atlas.face_corners(f, atlas.face_frame(f));
+    sum += chart_area(z[0], z[1], z[2]);
+  }
+  return sum / (atlas.base.face_count() * kChartArea) - 1.0;
+}
+
+struct Case {
+  const char* name;
+  Mesh mesh;
+  int base_vertices;
+};
+
+std::vector<Case> cases() {
+  return {{"sphere", shapes::sphere(4), 12},
+          {"torus", shapes::torus(60, 24), 16},
+          {"genus 3", shapes::genus_slab(3, 2), 60},
+          {"open grid", shapes::grid(30, 20), 12},
+          {"two components", shapes::twice(shapes::sphere(3), Vec3(3, 0, 0)), 20}};
+}
+
+}  // namespace
+
+TEST_CASE("the simplification keeps the topology, reaches its size and classifies every edge") {
+  for (Case& c : cases()) {
+    INFO(c.name);
+    const int euler = [&] {
+      const Surface surface(c.mesh);
+      return surface.mesh.vertex_count() - surface.edge_count() + surface.mesh.face_count();
+    }();
+    const Atlas atlas = simplified(c.mesh, c.base_vertices);
+    CHECK(atlas.base.vertex_count() == c.base_vertices);
+    Mesh base;
+    base.positions.resize(atlas.base.vertices.size());
+    base.faces = atlas.base.faces;
+    const Surface connected(base);
+    CHECK(base.vertex_count() - connected.edge_count() + base.face_count() == euler);
+    CHECK(atlas.broken_faces() == 0);
+    CHECK(std::abs(area_excess(atlas)) < 1e-10);
+  }
+}
+
+TEST_CASE("solving, reassigning, relaxing and refining never change the total area of the map") {
+  for (Case& c : cases()) {
+    INFO(c.name);
+    Atlas atlas = simplified(c.mesh, c.base_vertices);
+    place_boundary(atlas);
+    CHECK(std::abs(area_excess(atlas)) < 1e-10);
+    const auto weights = mean_value_weights(*atlas.surface);
+    for (int round = 0; round < 3; ++round) {
+      solve_global(atlas, weights, 0.0);
+      CHECK(std::abs(area_excess(atlas)) < 1e-10);
+      relax_corners(atlas, weights, 0.45);
+      CHECK(atlas.broken_faces() == 0);
+      CHECK(std::abs(area_excess(atlas)) < 1e-10);
+    }
+    std::vector<int> every_seventh;
+    for (int e = 0; e < atlas.surface->edge_count(); e += 7) every_seventh.push_back(e);
+    const int before = atlas.surface->mesh.vertex_count();
+    split_edges(atlas, every_seventh);
+    CHECK(atlas.surface->mesh.vertex_count() == before + static_cast<int>(every_seventh.size()));
+    CHECK(atlas.broken_faces() == 0);
+    CHECK(std::abs(area_excess(atlas)) < 1e-10);
+  }
+}
+
+TEST_CASE("moving vertices to other charts leaves the solution of the global system where it is") {
+  Atlas atlas = simplified(shapes::sphere(3), 8);
+  const auto weights = mean_value_weights(*atlas.surface);
+  solve_global(atlas, weights, 0.0);
+  Atlas moved = atlas;
+  for (int v = 0; v < moved.surface->mesh.vertex_count(); v += 3) {
+    if (moved.corner[v] >= 0) continue;
+    const int h = 3 * moved.patch[v] + v % 3;
+    moved.change_chart(v, moved.base.twins[h] / 3, moved.base.across(h));
+  }
+  solve_global(moved, weights, 0.0);
+  for (int f = 0; f < atlas.surface->mesh.face_count(); ++f) {
+    const auto a = atlas.face_corners(f, atlas.face_frame(f)), b = moved.face_corners(f, moved.face_frame(f));
+    for (int k = 0; k < 3; ++k) CHECK(std::abs(std::abs(a[(k + 1) % 3] - a[k]) - std::abs(b[(k + 1) % 3] - b[k])) < 1e-9);
+  }
+}
+
+TEST_CASE("a lattice torus onto a lattice base keeps the exact flat map") {
+  // Every vertex has valence 6 and every face is equilateral in the chart: affine maps solve the uniform system exactly,
+  // and on the flat disc below mean value weights reproduce them too (Floater 2003).
+  Atlas atlas = simplified(shapes::sector_disc(6, 4), 7);
+  place_boundary(atlas);
+  solve_global(atlas, mean_value_weights(*atlas.surface), 0.0);
+  if (atlas.base.face_count() == 6 && atlas.corner[0] >= 0) {
+    double least = 1e300, most = 0.0;
+    for (int f = 0; f < atlas.surface->mesh.face_count(); ++f) {
+      const auto z = atlas.face_corners(f, atlas.face_frame(f));
+      least = std::min(least, chart_area(z[0], z[1], z[2]));
+      most = std::max(most, chart_area(z[0], z[1], z[2]));
+    }
+    CHECK(most - least < 1e-9 * most);
+  }
+}
+
+TEST_CASE("the map is valid, and the same bits for one and two threads") {
+  for (Case& c : cases()) {
+    INFO(c.name);
+    ParameterizeOptions options;
+    options.base_vertices = c.base_vertices;
+    Progress progress;
+    set_thread_count(1);
+    const ParameterizeResult one = parameterize(c.mesh, options, progress);
+    set_thread_count(2);
+    const ParameterizeResult two = parameterize(c.mesh, options, progress);
+    set_thread_count(0);
+    CHECK(check_map(one.map).valid());
+    CHECK(one.map.position == two.map.position);
+    CHECK(one.map.patch == two.map.patch);
+    CHECK(one.map.surface.vertex_count() >= c.mesh.vertex_count());
+    CHECK(static_cast<int>(one.omega.size()) + c.base_vertices >= c.mesh.vertex_count());
+  }
+}
+
+TEST_CASE("the baselines stand on the same base and keep its area") {
+  ParameterizeOptions options;
+  options.base_vertices = 12;
+  Progress progress;
+  const auto results = parameterize_all(shapes::torus(40, 20), {Method::Maps, Method::MapsSmoothed}, options, progress);
+  CHECK(results[0].map.base.faces == results[1].map.base.faces);
+  CHECK(results[0].map.base.vertices == results[1].map.base.vertices);
+  for (const ParameterizeResult& r : results) CHECK(check_map(r.map).area_error < 1e-9);
+}
+
+TEST_CASE("options out of range and unusable surfaces are refused by name") {
+  Progress progress;
+  ParameterizeOptions options;
+  options.base_vertices = 3;
+  CHECK_THROWS_AS(parameterize(shapes::sphere(1), options, progress), Error);
+  options.base_vertices = 0;
+  options.gamma = -1.0;
+  CHECK_THROWS_AS(parameterize(shapes::sphere(1), options, progress), Error);
+  Mesh broken = shapes::sphere(1);
+  broken.faces.push_back(broken.faces.front());
+  try {
+    parameterize(broken, ParameterizeOptions{}, progress);
+    FAIL("accepted");
+  } catch (const Error& e) {
+    CHECK(exit_status(e.cause()) == 3);
+  }
+}
