@@ -16,7 +16,8 @@ struct Options {
 };
 
 Json direction(const OneWayDistance& d) {
-  return {{"mean", d.mean}, {"rms", d.rms}, {"rms_standard_error", d.rms_standard_error}, {"hausdorff", d.hausdorff}};
+  return {{"mean", d.mean}, {"rms", d.rms}, {"rms_standard_error", d.rms_standard_error}, {"quantile95", d.quantile95},
+          {"hausdorff", d.hausdorff}, {"samples", d.samples}};
 }
 
 int run_distance(const Options& options, Context& context) {
@@ -27,6 +28,7 @@ int run_distance(const Options& options, Context& context) {
                          {"backward", direction(d.backward)},
                          {"mean", d.mean()},
                          {"rms", d.rms()},
+                         {"quantile95", d.quantile95()},
                          {"hausdorff", d.hausdorff()},
                          {"diagonal", d.diagonal},
                          {"psnr_db", d.psnr_db()},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "mesh/error.h"
 #include "mesh/random.h"
@@ -58,13 +59,20 @@ std::array<double, 2> triangle_point(double r, std::uint32_t random) {
 
 }  // namespace
 
-AreaSampler::AreaSampler(const Mesh& mesh, const std::vector<int>& order, std::size_t samples, std::uint64_t seed)
-    : mesh_(mesh), order_(order), cumulative_(order.size() + 1, 0.0), samples_(samples), seed_(seed) {
-  for (std::size_t i = 0; i < order.size(); ++i) cumulative_[i + 1] = cumulative_[i] + face_area(mesh, order[i]);
-  if (!(cumulative_.back() > 0.0)) throw Error(Cause::NoFaces, "a surface without area has no samples");
+AreaSampler::AreaSampler(const Mesh& mesh, const std::vector<int>& order, std::vector<float> density, std::size_t samples,
+                         std::uint64_t seed)
+    : mesh_(mesh), order_(order), density_(std::move(density)), cumulative_(order.size() + 1, 0.0), samples_(samples), seed_(seed) {
+  double area = 0.0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const double face = face_area(mesh, order[i]);
+    area += face;
+    cumulative_[i + 1] = cumulative_[i] + (density_.empty() ? face : face * density_[i]);
+  }
+  if (!(area > 0.0)) throw Error(Cause::NoFaces, "a surface without area has no samples");
+  density_scale_ = cumulative_.back() / area;
 }
 
-void AreaSampler::sample(std::size_t begin, std::size_t end, Vec3* out) const {
+void AreaSampler::sample(std::size_t begin, std::size_t end, Vec3* out, double* weight) const {
   const double stratum = cumulative_.back() / static_cast<double>(samples_);
   Random random(seed_ + 0xd1b54a32d192ed03ULL * (begin / kBlock + 1));
   std::size_t place = 0;
@@ -87,6 +95,7 @@ void AreaSampler::sample(std::size_t begin, std::size_t end, Vec3* out) const {
     const Triangle& corners = mesh_.faces[order_[place]];
     const Vec3& a = mesh_.positions[corners[0]];
     out[k - begin] = a + s * (mesh_.positions[corners[1]] - a) + t * (mesh_.positions[corners[2]] - a);
+    weight[k - begin] = density_.empty() ? 1.0 : density_scale_ / density_[place];
   }
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
@@ -22,6 +23,7 @@ class SurfaceTree {
   /// the nearest one: neighbouring queries run several times faster with it; the distance does not depend on it.
   double squared_distance(const Vec3& p, int& hint) const;
 
+  /// How the tree is made, for the metrics that walk it themselves.
   struct Impl;
   const Impl& impl() const { return *impl_; }
 
@@ -30,18 +32,24 @@ class SurfaceTree {
 };
 
 struct DistanceOptions {
-  std::size_t samples = 1000000;  ///< per direction, area-stratified
+  std::size_t samples = 1000000;  ///< per direction
   std::uint64_t seed = 1;
+  /// Decibels: samples are added until the standard error of each direction's RMS is at most this; 0 takes `samples`.
+  double tolerance_db = 0.0;
+  std::size_t most_samples = 1000000000;  ///< per direction, where a tolerance asks for more than `samples`
 };
 
 /// One direction, from samples on `a` to the nearest point of `b`, in the coordinates' own unit.
 struct OneWayDistance {
   double mean = 0.0;
   double rms = 0.0;
-  double hausdorff = 0.0;     ///< largest over the samples: a lower bound of the true one
+  double quantile95 = 0.0;    ///< 95% of the area is nearer; from up to 2^20 of the samples, in bins 0.025% wide
+  double hausdorff = 0.0;     ///< largest over the samples: a lower bound of the true one (hausdorff.h encloses it)
   /// Of the RMS, from the squared differences between neighbouring strata; their trend makes it err to the safe side.
   double rms_standard_error = 0.0;
   std::size_t samples = 0;
+
+  double standard_error_db() const;  ///< of 20·log10(rms); 0 for no distance
 };
 
 struct SurfaceDistance {
@@ -51,18 +59,23 @@ struct SurfaceDistance {
 
   double rms() const;        ///< the larger of the two directions
   double mean() const;
+  double quantile95() const;
   double hausdorff() const;
   double psnr_db() const;    ///< 20·log10(diagonal / rms()); infinite for equal surfaces
-  double standard_error_db() const;
+  double standard_error_db() const;  ///< of the direction with the larger RMS
 };
 
-/// Distance between surface `a` (the reference) and `b`, both ways (algorithms.md §7): samples are one per stratum of equal
-/// area, weights are equal, so mean and RMS are those over area.
+/// Distance between surface `a` (the reference) and `b`, both ways (algorithms.md §7). Mean, RMS and quantile are those
+/// over area. Samples are one per stratum; strata are smaller where an eighth as many samples (at most 2^19), taken before,
+/// found the squared distance to vary (sample_density.h), and each sample weighs as the area it stands for.
 /// The same bits for any number of threads. Throws Error(NoFaces, BadOption).
 SurfaceDistance surface_distance(const Mesh& a, const Mesh& b, const DistanceOptions& options, Progress& progress);
 
 /// The same where the trees are at hand, for many comparisons against one reference.
 SurfaceDistance surface_distance(const Mesh& a, const SurfaceTree& tree_a, const Mesh& b, const DistanceOptions& options,
                                  Progress& progress);
+
+/// #V distance of each vertex of `from` to the surface, in the coordinates' unit.
+std::vector<double> vertex_distances(const Mesh& from, const SurfaceTree& to);
 
 }  // namespace gsp

@@ -31,6 +31,9 @@ constexpr float kFarthest = 1e15f;
 /// Ranges up to four times this many entries are sorted to the end by one thread, within its cache.
 constexpr std::size_t kWithinCache = 4096;
 
+/// A group is at most this many times as large as the triangle it is near; measured best from sparse to dense samples.
+constexpr double kGroupReach = 2.0;
+
 struct Entry {
   std::array<float, 3> centre;
   int face;
@@ -252,6 +255,20 @@ double TriangleTree::nearest(const Vec3& point, int& hint) const {
   return squared;
 }
 
+double TriangleTree::squared_distance(int place, const Vec3& point) const {
+  double squared = std::numeric_limits<double>::infinity();
+  nearer<1>(frames_[place], {{point.x()}, {point.y()}, {point.z()}}, &squared);
+  return squared;
+}
+
+double TriangleTree::squared_plane_distance(int place, const Vec3& point) const {
+  const TriangleFrame& t = frames_[place];
+  const Vec3 offset = point - t.origin;
+  if (t.height > 0.0) return std::pow(offset.dot(t.x_axis.cross(t.y_axis)), 2);
+  if (t.length > 0.0) return offset.cross(t.x_axis).squaredNorm();
+  return offset.squaredNorm();
+}
+
 int TriangleTree::descend(const Vec3& point) const {
   const QueryBox box = query_box(PointGroup<1>{{point.x()}, {point.y()}, {point.z()}});
   std::size_t node = 0;
@@ -261,6 +278,26 @@ int TriangleTree::descend(const Vec3& point) const {
     node = kWidth * node + (std::min_element(distance, distance + kWidth) - distance);
   }
   return static_cast<int>(node);
+}
+
+void squared_distances(const TriangleTree& target, const Vec3* points, std::size_t count, double* squared) {
+  int hint = target.descend(points[0]);
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+    const double reach = kGroupReach * target.size(hint);
+    PointGroup<kGroupSize> group;
+    Vec3 low = points[begin], high = low;
+    for (; end < count && end - begin < kGroupSize; ++end) {
+      const Vec3& p = points[end];
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+      if (end > begin && (high - low).maxCoeff() > reach) break;
+      group.set(end - begin, p);
+    }
+    for (std::size_t i = end - begin; i < kGroupSize; ++i) group.set(i, points[end - 1]);
+    double nearest[kGroupSize];
+    target.nearest(group, nearest, hint);
+    std::copy(nearest, nearest + (end - begin), squared + begin);
+  }
 }
 
 }  // namespace gsp

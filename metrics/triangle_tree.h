@@ -32,6 +32,11 @@ class TriangleTree {
   void nearest(const PointGroup<kGroupSize>& points, double* squared, int& hint) const;
   double nearest(const Vec3& point, int& hint) const;
 
+  /// Squared distance of a point to the triangle at a place.
+  double squared_distance(int place, const Vec3& point) const;
+  /// Squared distance of a point to the plane of the triangle at a place; to its line or point where it has no area.
+  double squared_plane_distance(int place, const Vec3& point) const;
+
   /// A place near the point, for a first hint. O(log F).
   int descend(const Vec3& point) const;
 
@@ -62,5 +67,10 @@ class TriangleTree {
   Vec3 centre_ = Vec3::Zero();
   double scale_ = 1.0;
 };
+
+/// squared[i] = squared distance of each of `count` >= 1 points to the surface. Fast where the points follow each other
+/// closely: they are asked in groups as long as a group stays about as small as the triangle it is near, so one walk
+/// through the tree serves up to eight points, and where points are farther apart than the triangles each gets its own.
+void squared_distances(const TriangleTree& target, const Vec3* points, std::size_t count, double* squared);
 
 }  // namespace gsp

@@ -20,10 +20,11 @@ std::vector<int> in_order(const Mesh& mesh) {
 
 std::vector<Vec3> samples(const Mesh& mesh, std::size_t count, std::uint64_t seed) {
   const std::vector<int> order = in_order(mesh);
-  const AreaSampler sampler(mesh, order, count, seed);
+  const AreaSampler sampler(mesh, order, {}, count, seed);
+  std::vector<double> weights(count);
   std::vector<Vec3> points(count);
   for (std::size_t begin = 0; begin < count; begin += AreaSampler::kBlock)
-    sampler.sample(begin, std::min(count, begin + AreaSampler::kBlock), points.data() + begin);
+    sampler.sample(begin, std::min(count, begin + AreaSampler::kBlock), points.data() + begin, weights.data() + begin);
   return points;
 }
 }  // namespace

@@ -185,3 +185,59 @@ TEST_CASE("refusals have a cause") {
   Progress cancelling([](const std::string&, double) { return false; });
   CHECK(cause([&] { surface_distance(sphere, sphere, {1000, 1}, cancelling); }) == Cause::Cancelled);
 }
+
+TEST_CASE("the 95% quantile of a distance that grows linearly is known") {
+  // Half of [0,8]x[0,1] lies over [0,4]x[0,1]; over the rest the distance is uniform in [0, 4]: 5% of all is beyond 3.6.
+  const SurfaceDistance d = measure(shapes::grid(8, 1), shapes::grid(4, 1), 200000);
+  CHECK(d.forward.quantile95 == Approx(3.6).epsilon(1e-3));
+  CHECK(d.quantile95() == d.forward.quantile95);
+  CHECK(measure(shapes::grid(8, 8), shapes::grid(8, 8, 0.5)).quantile95() == Approx(0.5).epsilon(3e-4));
+}
+
+TEST_CASE("samples where the distance varies: no bias, and a small part of the error of even ones") {
+  // A far spike on a fine flat grid holds nearly all of the mean square.
+  Mesh spiked = shapes::grid(60, 60);
+  spiked.positions[30 * 61 + 30].z() = 2.0;
+  const Mesh flat = shapes::grid(60, 60);
+  // Six faces of area A/6 in projection around the spike, each a linear height over its own tilted area:
+  // the mean of (2t)² over a face with t linear from 0 at two corners to 1 at the third is 4/6, and the nearest
+  // point of the plane is straight below.
+  double spike_area = 0.0;
+  for (int f = 0; f < spiked.face_count(); ++f)
+    for (int v : spiked.faces[f])
+      if (v == 30 * 61 + 30) spike_area += face_area(spiked, f);
+  const double expected = std::sqrt(spike_area * 4.0 / 6.0 / surface_area(spiked));
+  double sum = 0.0, error = 0.0;
+  const int seeds = 20;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const OneWayDistance d = measure(spiked, flat, 40000, seed).forward;
+    sum += d.rms / seeds;
+    error += d.rms_standard_error / seeds;
+    CHECK(std::abs(d.rms - expected) < 5.0 * d.rms_standard_error);
+  }
+  CHECK(std::abs(sum - expected) < 5.0 * error / std::sqrt(seeds));
+  CHECK(error < 2e-3 * expected);
+}
+
+TEST_CASE("a tolerance is met by adding samples, with the same result as asking for as many") {
+  const Mesh a = shapes::sphere(3), b = shapes::torus(30, 12, 0.8, 0.3);
+  Progress silent;
+  DistanceOptions options{1000, 1};
+  options.tolerance_db = 0.002;
+  const SurfaceDistance d = surface_distance(a, b, options, silent);
+  CHECK(d.forward.samples > 1000);
+  CHECK(d.forward.standard_error_db() <= 0.002);
+  CHECK(d.backward.standard_error_db() <= 0.002);
+  CHECK(same_bits(d.forward, measure(a, b, d.forward.samples).forward));
+  options.most_samples = 2000;
+  CHECK(surface_distance(a, b, options, silent).forward.samples == 2000);
+  CHECK(surface_distance(a, a, options, silent).forward.samples == 1000);
+}
+
+TEST_CASE("distances of vertices are those of their points") {
+  const Mesh a = shapes::torus(40, 20), b = shapes::sphere(2);
+  const std::vector<double> distances = vertex_distances(a, SurfaceTree(b));
+  REQUIRE(distances.size() == a.positions.size());
+  for (std::size_t v = 0; v < distances.size(); v += 37)
+    CHECK(distances[v] == Approx(brute_force_distance(a.positions[v], b)).epsilon(1e-12));
+}
