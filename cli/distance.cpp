@@ -1,9 +1,14 @@
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/options.h"
 #include "cli/report.h"
 #include "mesh/io.h"
+#include "metrics/hausdorff.h"
+#include "metrics/metro.h"
+#include "metrics/picture.h"
+#include "metrics/psnr.h"
 #include "metrics/surface_distance.h"
 
 namespace gsp::cli {
@@ -11,31 +16,91 @@ namespace gsp::cli {
 namespace {
 
 struct Options {
-  std::string a, b;
+  std::string a, b, per_vertex;
   DistanceOptions distance;
+  double hausdorff_tolerance = 0.0;
+  bool metro = false, mpeg = false;
+};
+
+/// Both surfaces and their trees, each built once for all that is measured.
+struct Pair {
+  explicit Pair(const Options& options) : a(read_mesh(options.a)), b(read_mesh(options.b)), tree_a(a), tree_b(b) {}
+  Mesh a, b;
+  SurfaceTree tree_a, tree_b;
 };
 
 Json direction(const OneWayDistance& d) {
-  return {{"mean", d.mean}, {"rms", d.rms}, {"rms_standard_error", d.rms_standard_error}, {"quantile95", d.quantile95},
-          {"hausdorff", d.hausdorff}, {"samples", d.samples}};
+  return {{"mean", d.mean},
+          {"rms", d.rms},
+          {"rms_standard_error", d.rms_standard_error},
+          {"standard_error_db", d.standard_error_db()},
+          {"quantile95", d.quantile95},
+          {"hausdorff", d.hausdorff},
+          {"samples", d.samples}};
+}
+
+Json direction(const MetroDistance& d) {
+  return {{"mean", d.mean},
+          {"rms", d.rms},
+          {"maximum", d.maximum},
+          {"vertex_samples", d.vertex_samples},
+          {"edge_samples", d.edge_samples},
+          {"face_samples", d.face_samples}};
+}
+
+Json report_of(const DistanceBounds& bounds) {
+  return {{"lower", bounds.lower}, {"upper", bounds.upper}, {"relative_width", bounds.relative_width()}};
+}
+
+Json report_of(const Psnr& psnr) {
+  return {{"name", psnr.name}, {"db", psnr.db}, {"peak", psnr.peak}, {"formula", psnr.formula}};
+}
+
+Json metro_report(const Pair& pair, std::size_t samples, Progress& progress) {
+  const MetroDistances d = metro_distances(pair.a, pair.tree_a, pair.b, pair.tree_b, samples, progress);
+  return {{"forward", direction(d.forward)},
+          {"backward", direction(d.backward)},
+          {"inflated_diagonal", d.diagonal},
+          {"rule", "as Metro 4.07: vertex, edge and face samples weigh the same; diagonal of the joint box widened by 2%"}};
+}
+
+void write_per_vertex(const std::string& path, const Pair& pair, const SurfaceDistance& distance) {
+  write_vertex_picture(path, pair.a, {{"distance", vertex_distances(pair.a, pair.tree_b)}},
+                       {0.0, distance.forward.quantile95});
 }
 
 int run_distance(const Options& options, Context& context) {
   Progress progress = context.console.progress();
-  const Mesh a = read_mesh(options.a), b = read_mesh(options.b);
-  const SurfaceDistance d = surface_distance(a, b, options.distance, progress);
-  print_report(context, {{"forward", direction(d.forward)},
-                         {"backward", direction(d.backward)},
-                         {"mean", d.mean()},
-                         {"rms", d.rms()},
-                         {"quantile95", d.quantile95()},
-                         {"hausdorff", d.hausdorff()},
-                         {"diagonal", d.diagonal},
-                         {"psnr_db", d.psnr_db()},
-                         {"psnr_formula", "20 log10(diagonal of the first / larger RMS)"},
-                         {"standard_error_db", d.standard_error_db()},
-                         {"samples", options.distance.samples},
-                         {"seed", options.distance.seed}});
+  const Pair pair(options);
+  const SurfaceDistance d = surface_distance(pair.a, pair.tree_a, pair.b, pair.tree_b, options.distance, progress);
+  Json report = {{"forward", direction(d.forward)},
+                 {"backward", direction(d.backward)},
+                 {"mean", d.mean()},
+                 {"rms", d.rms()},
+                 {"quantile95", d.quantile95()},
+                 {"hausdorff", d.hausdorff()},
+                 {"diagonal", d.diagonal},
+                 {"psnr_db", d.psnr_db()},
+                 {"psnr_formula", diagonal_psnr(d).formula},
+                 {"standard_error_db", d.standard_error_db()}};
+  report["mpeg_d1"] = report_of(mpeg_d1_psnr(pair.a, d));
+  if (options.mpeg)
+    report["mpeg_d2"] = report_of(mpeg_d2_psnr(pair.a, pair.tree_a, pair.b, pair.tree_b, options.distance, progress));
+  if (options.hausdorff_tolerance > 0.0) {
+    HausdorffOptions bounds;
+    bounds.tolerance = options.hausdorff_tolerance;
+    const HausdorffBounds h = hausdorff_bounds(pair.a, pair.tree_a, pair.b, pair.tree_b, bounds, progress);
+    report["hausdorff_bounds"] = {
+        {"forward", report_of(h.forward)}, {"backward", report_of(h.backward)}, {"both", report_of(h.both())}};
+  }
+  if (options.metro) report["metro"] = metro_report(pair, 0, progress);
+  if (!options.per_vertex.empty()) write_per_vertex(options.per_vertex, pair, d);
+  report["samples"] = std::max(d.forward.samples, d.backward.samples);
+  report["seed"] = options.distance.seed;
+  const double tolerance = options.distance.tolerance_db;
+  if (tolerance > 0.0 && std::max(d.forward.standard_error_db(), d.backward.standard_error_db()) > tolerance)
+    context.console.say("the standard error is over the tolerance: the most samples that are taken are not enough");
+  print_report(context, report);
   return 0;
 }
 
@@ -47,6 +112,18 @@ void add_distance(CLI::App& app, Context& context) {
   command.argument("A", options->a, "reference surface; distances are in its units");
   command.argument("B", options->b, "the other surface");
   command.sampling_options(options->distance.samples, options->distance.seed);
+  command.number("--tolerance-db", options->distance.tolerance_db, 0.0, 10.0,
+                 "add samples until the RMS's standard error is at most this, 0 for no more than --samples");
+  command.number("--hausdorff-tolerance", options->hausdorff_tolerance, 0.0, 1.0,
+                 "also enclose the Hausdorff distance in certain bounds, this much apart; 0 for samples alone");
+  command.flag("--metro", options->metro, "also what Metro 4.07 computes, with its samples and averages");
+  command.flag("--mpeg", options->mpeg, "also MPEG's D2 PSNR (point to plane)");
+  command.optional_file("--per-vertex", options->per_vertex, "also write A as PLY with each vertex's distance and a colour");
+  command.footer(
+      "Forward is from A to B. Mean, RMS and the 95% quantile are over area; Hausdorff is the largest over the samples,\n"
+      "which --hausdorff-tolerance encloses from both sides. The standard error is that of the RMS. PSNR is\n"
+      "20 log10(diagonal of A's bounding box / larger RMS); MPEG's D1 and D2 use another peak and formula and are other\n"
+      "numbers. Metro's averages mix vertex, edge and face samples without weights: only for comparison with papers.");
   command.on_run([options, &context] { return run_distance(*options, context); });
 }
 

@@ -75,6 +75,10 @@ SurfaceDistance surface_distance(const Mesh& a, const Mesh& b, const DistanceOpt
 SurfaceDistance surface_distance(const Mesh& a, const SurfaceTree& tree_a, const Mesh& b, const DistanceOptions& options,
                                  Progress& progress);
 
+/// The same where both trees are at hand.
+SurfaceDistance surface_distance(const Mesh& a, const SurfaceTree& tree_a, const Mesh& b, const SurfaceTree& tree_b,
+                                 const DistanceOptions& options, Progress& progress);
+
 /// #V distance of each vertex of `from` to the surface, in the coordinates' unit.
 std::vector<double> vertex_distances(const Mesh& from, const SurfaceTree& to);
 

@@ -1,0 +1,90 @@
+#include "metrics/picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mesh/atomic_file.h"
+#include "mesh/ply.h"
+
+namespace gsp {
+
+namespace {
+
+using Rgb = std::array<double, 3>;
+constexpr Rgb kGray = {190, 190, 190}, kRed = {200, 16, 16};
+
+double finite(double value) { return std::isfinite(value) ? value : 0.0; }
+
+void add_columns(PlyElement& element, const std::vector<PictureColumn>& columns, const ColourScale& scale) {
+  for (const PictureColumn& column : columns) {
+    PlyProperty& property = element.properties.emplace_back();
+    property.name = column.name;
+    property.type = PlyType::Float64;
+    for (double value : column.values) property.values.push_back(finite(value));
+  }
+  PlyProperty quality = element.properties[element.properties.size() - columns.size()];
+  quality.name = "quality";
+  quality.type = PlyType::Float32;
+  const char* names[3] = {"red", "green", "blue"};
+  for (int k = 0; k < 3; ++k) {
+    PlyProperty& colour = element.properties.emplace_back();
+    colour.name = names[k];
+    colour.type = PlyType::Uint8;
+    for (double value : quality.values) {
+      const double range = scale.full - scale.neutral;
+      const double share = range != 0.0 ? std::clamp((value - scale.neutral) / range, 0.0, 1.0) : 0.0;
+      colour.values.push_back(std::round(kGray[k] + share * (kRed[k] - kGray[k])));
+    }
+  }
+  element.properties.push_back(std::move(quality));
+}
+
+PlyElement vertex_element(const Mesh& mesh) {
+  PlyElement element{"vertex", mesh.positions.size(), {}};
+  const char* names[3] = {"x", "y", "z"};
+  for (int k = 0; k < 3; ++k) {
+    PlyProperty& property = element.properties.emplace_back();
+    property.name = names[k];
+    for (const Vec3& p : mesh.positions) property.values.push_back(p[k]);
+  }
+  return element;
+}
+
+PlyElement face_element(const Mesh& mesh) {
+  PlyElement element{"face", mesh.faces.size(), {}};
+  PlyProperty& corners = element.properties.emplace_back();
+  corners.name = "vertex_indices";
+  corners.type = PlyType::Int32;
+  corners.count_type = PlyType::Uint8;
+  for (const Triangle& face : mesh.faces) {
+    corners.starts.push_back(corners.values.size());
+    corners.values.insert(corners.values.end(), face.begin(), face.end());
+  }
+  corners.starts.push_back(corners.values.size());
+  return element;
+}
+
+void write(const std::string& path, PlyElement vertices, PlyElement faces) {
+  AtomicFile file(path);
+  write_ply(file.stream(), {{"gsp picture"}, {std::move(vertices), std::move(faces)}});
+  file.commit();
+}
+
+}  // namespace
+
+void write_vertex_picture(const std::string& path, const Mesh& mesh, const std::vector<PictureColumn>& columns,
+                          const ColourScale& scale) {
+  PlyElement vertices = vertex_element(mesh);
+  add_columns(vertices, columns, scale);
+  write(path, std::move(vertices), face_element(mesh));
+}
+
+void write_face_picture(const std::string& path, const Mesh& mesh, const std::vector<PictureColumn>& columns,
+                        const ColourScale& scale) {
+  PlyElement faces = face_element(mesh);
+  add_columns(faces, columns, scale);
+  write(path, vertex_element(mesh), std::move(faces));
+}
+
+}  // namespace gsp
