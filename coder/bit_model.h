@@ -29,7 +29,7 @@ class MixedModel {
   /// `sizes`: number of values of each context; `mixers`: number of weight sets.
   MixedModel(const std::array<int, N>& sizes, int mixers) : weights_(mixers) {
     for (int i = 0; i < N; ++i) contexts_[i].resize(sizes[i]);
-    for (auto& weights : weights_) weights.fill(65536 / N);
+    for (auto& weights : weights_) weights.fill(65536 * 3 / (2 * N));
   }
 
   /// Codes `actual` through `side`, or receives it from there, and learns from it.
@@ -53,7 +53,7 @@ class MixedModel {
   }
 
  private:
-  static constexpr int kMemory = 250;  // bits after which a context starts to forget
+  static constexpr int kMemory = 400;  // bits after which a context starts to forget
   static constexpr int kLearningRate = 2;
 
   std::array<std::vector<AdaptiveBit>, N> contexts_;

@@ -27,12 +27,13 @@ struct BitplaneCoefficients {
 
 /// Fractions of a bit-plane in which bits are ordered.
 inline constexpr int kPassesPerPlane = 4;
-/// Largest offset of a node's bits against the order of planes.
-inline constexpr int kMaxUrgency = 2 * kPassesPerPlane;
+/// Offsets of a node's bits against the order of planes.
+inline constexpr int kMaxUrgency = 2 * kPassesPerPlane, kMinUrgency = -6 * kPassesPerPlane;
 
-/// #N in 1/kPassesPerPlane of a plane: how much earlier than others a node's bits are worth sending, within
-/// +-kMaxUrgency. A function of what is known so far, which both sides evaluate at the same places of the stream.
-using Urgency = std::function<std::vector<std::int8_t>(const BitplaneCoefficients& known)>;
+/// For each component #N in 1/kPassesPerPlane of a plane: how much earlier than others a node's bits are worth sending,
+/// kMinUrgency..kMaxUrgency. A function of what is known so far, which both sides evaluate at the same places of the
+/// stream.
+using Urgency = std::function<std::array<std::vector<std::int8_t>, 3>(const BitplaneCoefficients& known)>;
 
 /// What encoder and decoder must agree on besides the forest.
 struct BitplaneLayout {
@@ -42,11 +43,20 @@ struct BitplaneLayout {
   Urgency urgency;
 };
 
+/// Bits of the stream by what they say.
+struct BitplaneParts {
+  double base = 0.0;
+  struct Component {
+    double trees = 0.0, significance = 0.0, signs = 0.0, refinement = 0.0;
+  };
+  std::array<Component, 3> details;
+};
+
 /// Appends the embedded stream to `out`: bits in the order of their plane and their node's urgency; in each pass the
 /// base positions first, then the details level by level. A node's bits end at plane (kMaxUrgency - urgency) /
 /// kPassesPerPlane, so that all end at the same importance.
-void encode_bitplanes(const EdgeForest& forest, const BitplaneLayout& layout, const BitplaneCoefficients& coefficients,
-                      Bytes& out);
+BitplaneParts encode_bitplanes(const EdgeForest& forest, const BitplaneLayout& layout,
+                               const BitplaneCoefficients& coefficients, Bytes& out);
 
 /// What the bytes [begin, end) determine. Any bytes are safe.
 BitplaneCoefficients decode_bitplanes(const EdgeForest& forest, const BitplaneLayout& layout, const std::uint8_t* begin,

@@ -53,16 +53,19 @@ struct Structure {
         forest(levels),
         transform(levels) {}
 
-  /// Positions of level `level` from what is known of the coefficients.
-  std::vector<Vec3> reconstruct(const BitplaneCoefficients& known, int level) const {
+  /// Positions of levels 0 to `level` from what is known of the coefficients, `visit`ed one by one.
+  template <class Visit>
+  void reconstruct(const BitplaneCoefficients& known, int level, Visit visit) const {
     std::vector<Vec3> positions = dequantize_base(known, header);
     for (int l = 0; l < level; ++l) {
       const std::vector<Frame> frames = edge_frames(levels[l], positions);
       std::vector<Vec3> details = dequantize_details(known, forest, l, header);
       for (std::size_t e = 0; e < frames.size(); ++e) details[e] = frames[e] * details[e];
-      positions = transform.synthesis(l, positions, details);
+      std::vector<Vec3> finer = transform.synthesis(l, positions, details);
+      visit(std::move(positions));
+      positions = std::move(finer);
     }
-    return positions;
+    visit(std::move(positions));
   }
 
   BitplaneLayout layout() const {
@@ -75,7 +78,10 @@ struct Structure {
       layout.base_neighbours[b].push_back(a);
     }
     layout.urgency = [this](const BitplaneCoefficients& known) {
-      return area_urgency(levels, forest, reconstruct(known, std::min(kAreaLevel, header.level)));
+      std::vector<std::vector<Vec3>> positions;
+      reconstruct(known, std::min(kImportanceLevel, header.level),
+                  [&](std::vector<Vec3>&& p) { positions.push_back(std::move(p)); });
+      return surface_urgency(levels, forest, positions, header.tangential_ratio);
     };
     return layout;
   }
@@ -139,7 +145,7 @@ SemiregularMesh decode(const Bytes& stream, std::size_t budget) {
   mesh.level = header.level;
   mesh.base_vertices = header.base.vertices;
   mesh.base_faces = header.base.faces;
-  mesh.positions = structure.reconstruct(known, header.level);
+  structure.reconstruct(known, header.level, [&](std::vector<Vec3>&& p) { mesh.positions = std::move(p); });
   return mesh;
 }
 

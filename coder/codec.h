@@ -21,8 +21,9 @@ struct EncodeOptions {
   /// It sets where the stream ends: the whole stream codes every coefficient to about this step, times the inverse
   /// square root of the local over the mean triangle area. At most 25 less the number of levels is used.
   int precision_bits = 16;
-  /// Step of tangential components over that of normal ones, a power of two: 1, 2, 4, 8.
-  int tangential_ratio = 4;
+  /// Largest step of tangential components over that of normal ones, a power of two: 1, 2, 4, 8. It is reached where the
+  /// surface is flat and smooth (coder/importance.h); where normals vary, steps are closer to equal.
+  int tangential_ratio = 8;
 };
 
 /// Codes a semi-regular mesh as an embedded stream: a checksummed header with the base connectivity, then bit-planes,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -8,13 +9,19 @@
 
 namespace gsp {
 
-/// Level whose faces' areas weigh the details of this level and all finer ones.
-inline constexpr int kAreaLevel = 2;
+/// #N for each of normal, first and second tangential component.
+using ComponentUrgency = std::array<std::vector<std::int8_t>, 3>;
 
-/// How much earlier than on a mesh of equal triangles each node's bits are worth sending (bitplane_coder.h): an error
-/// on the surface counts by its area, so steps should go with the inverse square root of the area that a detail spreads
-/// over. `positions` are the decoder's own at level min(kAreaLevel, forest.levels()). O(N).
-std::vector<std::int8_t> area_urgency(const std::vector<SubdivisionLevel>& levels, const EdgeForest& forest,
-                                      const std::vector<Vec3>& positions);
+/// Level of the reconstruction that importance is read from, at most.
+inline constexpr int kImportanceLevel = 4;
+
+/// How much earlier than a normal detail on a flat mesh of equal triangles each node's bits are worth sending
+/// (bitplane_coder.h). To first order a displacement along the axis f moves the surface by ∫(n·f)² dA over its support:
+/// so steps should go with the inverse square root of f's second moment of normals there. For tangential components
+/// this is next to nothing where the surface is flat and smooth, and as much as for normal ones where it is neither;
+/// they count for at least 1/`tangential_ratio`, since what is not known yet may bend the surface. `positions`
+/// are the decoder's own of levels 0 to at most forest.levels(); finer nodes take what their parents have. O(N).
+ComponentUrgency surface_urgency(const std::vector<SubdivisionLevel>& levels, const EdgeForest& forest,
+                                 const std::vector<std::vector<Vec3>>& positions, int tangential_ratio);
 
 }  // namespace gsp

@@ -43,7 +43,8 @@ TEST_CASE("the whole stream holds the mesh to its precision") {
       EncodeOptions options;
       options.precision_bits = bits;
       const Bytes stream = encode(mesh, options, silent);
-      CHECK(rms_error(mesh, decode(stream, stream.size())) < 4.0 * std::ldexp(diagonal, -bits));
+      // Tangential components may end coarser than normal ones.
+      CHECK(rms_error(mesh, decode(stream, stream.size())) < 8.0 * std::ldexp(diagonal, -bits));
     }
   }
 }
