@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,8 @@
 #include "cli/options.h"
 #include "cli/report.h"
 #include "mesh/atomic_file.h"
+#include "metrics/picture.h"
+#include "metrics/smoothness.h"
 #include "param/param_file.h"
 
 namespace gsp::cli {
@@ -16,47 +19,102 @@ namespace gsp::cli {
 namespace {
 
 struct Options {
-  std::string map, per_face;
+  std::string map, per_face, picture;
+  std::string colour = "anisotropy";
 };
 
 Json statistics(const Statistics& s) {
-  return {{"mean", s.mean}, {"median", s.median}, {"p95", s.p95}, {"maximum", s.maximum}};
+  return {{"minimum", s.minimum}, {"mean", s.mean}, {"p05", s.p05},        {"median", s.median},
+          {"p95", s.p95},         {"p99", s.p99},   {"maximum", s.maximum}};
 }
 
-void write_per_face(const std::string& path, const FaceDistortion& faces) {
+Json measure(const Statistics& s, double neutral) {
+  Json report = {{"neutral", neutral}};
+  report.update(statistics(s));
+  return report;
+}
+
+Json edges(const Statistics& s, int count) {
+  Json report = {{"edges", count}};
+  report.update(measure(s, 0.0));
+  return report;
+}
+
+void write_csv(const std::string& path, const std::vector<PictureColumn>& columns) {
   AtomicFile file(path);
-  file.stream() << "face,anisotropy,area\n";
-  for (std::size_t f = 0; f < faces.anisotropy.size(); ++f)
-    file.stream() << fmt::format("{},{:.9g},{:.9g}\n", f, faces.anisotropy[f], faces.area[f]);
+  file.stream() << "face";
+  for (const PictureColumn& column : columns) file.stream() << ',' << column.name;
+  file.stream() << '\n';
+  for (std::size_t f = 0; f < columns.front().values.size(); ++f) {
+    file.stream() << f;
+    for (const PictureColumn& column : columns) file.stream() << fmt::format(",{:.9g}", column.values[f]);
+    file.stream() << '\n';
+  }
   file.commit();
+}
+
+/// The chosen measure first, since that is the one that colours; red from its 95% percentile on.
+void write_picture(const Options& options, const Parameterization& map, std::vector<PictureColumn> columns,
+                   const Distortion& d, const Smoothness& s) {
+  const auto chosen = std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.name == options.colour; });
+  std::rotate(columns.begin(), chosen, chosen + 1);
+  const ColourScale scale = options.colour == "anisotropy"   ? ColourScale{1.0, d.anisotropy.p95}
+                            : options.colour == "area"       ? ColourScale{1.0, d.area.p95}
+                            : options.colour == "stretch_l2" ? ColourScale{1.0, d.stretch_l2.p95}
+                            : options.colour == "sorkine"    ? ColourScale{1.0, d.sorkine.p95}
+                                                             : ColourScale{0.0, s.all.p95};
+  write_face_picture(options.picture, map.surface, columns, scale);
 }
 
 int run_distortion(const Options& options, Context& context) {
   const Parameterization map = read_parameterization(options.map);
   const Distortion d = distortion(map);
-  if (!options.per_face.empty()) write_per_face(options.per_face, face_distortion(map));
-  const MapCheck check = check_map(map);
-  print_report(context, {{"anisotropy", statistics(d.anisotropy)},
-                         {"anisotropy_eigenvalues", statistics(d.anisotropy_eigenvalues)},
-                         {"area", statistics(d.area)},
-                         {"area_eigenvalues", statistics(d.area_eigenvalues)},
+  const Smoothness s = smoothness(map);
+  FaceDistortion faces = face_distortion(map);
+  const std::vector<PictureColumn> columns = {{"anisotropy", std::move(faces.anisotropy)},
+                                              {"area", std::move(faces.area)},
+                                              {"stretch_l2", std::move(faces.stretch_l2)},
+                                              {"sorkine", std::move(faces.sorkine)},
+                                              {"smoothness", s.faces}};
+  if (!options.per_face.empty()) write_csv(options.per_face, columns);
+  if (!options.picture.empty()) write_picture(options, map, columns, d, s);
+  print_report(context, {{"anisotropy", measure(d.anisotropy, 1.0)},
+                         {"anisotropy_eigenvalues", measure(d.anisotropy_eigenvalues, 1.0)},
+                         {"area", measure(d.area, 1.0)},
+                         {"area_eigenvalues", measure(d.area_eigenvalues, 1.0)},
+                         {"stretch_l2", measure(d.stretch_l2, 1.0)},
+                         {"stretch_linf", measure(d.stretch_linf, 1.0)},
+                         {"sorkine", measure(d.sorkine, 1.0)},
+                         {"conformal", measure(d.conformal, 2.0)},
+                         {"area_symmetric", measure(d.area_symmetric, 2.0)},
+                         {"l2_stretch_of_map", d.l2_stretch},
+                         {"linf_stretch_of_map", d.linf_stretch},
+                         {"smoothness",
+                          {{"inside_patches", edges(s.inside, s.inside_edges)},
+                           {"across_patch_edges", edges(s.across, s.across_edges)},
+                           {"at_corners", edges(s.at_corner, s.corner_edges)}}},
                          {"degenerate_faces", d.degenerate_faces},
-                         {"check", check_report(check)}});
+                         {"check", check_report(check_map(map))}});
   return 0;
 }
 
 }  // namespace
 
 void add_distortion(CLI::App& app, Context& context) {
-  Command command(app, context, "distortion", "how much a map stretches, and whether it folds");
+  Command command(app, context, "distortion", "how much a map stretches, how smooth it is, and whether it folds");
   auto options = std::make_shared<Options>();
   command.argument("MAP", options->map, "map: *.param.ply");
-  command.optional_file("--per-face", options->per_face, "also write both measures for every face as CSV");
+  command.optional_file("--per-face", options->per_face, "also write every face's measures as CSV");
+  command.optional_file("--picture", options->picture, "also write the surface as PLY with every face's measures and a colour");
+  command.choice("--colour", options->colour, {"anisotropy", "area", "stretch_l2", "sorkine", "smoothness"},
+                 "what colours the picture: gray is neutral, red the worst 5% of the area");
   command.footer(
-      "anisotropy is the paper's Gamma_a, the larger over the smaller singular value of the map from chart to surface\n"
-      "(1 is isotropic); area is Gamma_d, their product over its mean (1 is neutral). The lines with eigenvalues give "
-      "the\n"
-      "same from the metric tensor's eigenvalues, which are the squares. Weights are areas on the surface.");
+      "With singular values s1 >= s2 of the map from chart to surface, in units in which both have the same area:\n"
+      "anisotropy is the paper's Gamma_a = s1/s2, area its Gamma_d = s1*s2; the lines with eigenvalues give the same from\n"
+      "the metric tensor's eigenvalues, which are the squares. stretch l2 is sqrt((s1^2 + s2^2)/2) and stretch linf s1\n"
+      "(Sander 2001; of the map: RMS and maximum), sorkine max(s1, 1/s2), conformal s1/s2 + s2/s1, area symmetric\n"
+      "s1*s2 + 1/(s1*s2). Each is printed with the value it has without distortion. Weights are areas on the surface.\n"
+      "smoothness is the difference of the first derivatives of neighbouring faces, unfolded into one plane (figure 1).");
   command.on_run([options, &context] { return run_distortion(*options, context); });
 }
 

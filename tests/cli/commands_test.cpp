@@ -99,12 +99,17 @@ TEST_CASE("the chain of commands: surface, map, remesh, stream, prefix, distance
   CHECK(report["check"]["valid"] == true);
   CHECK(size_of(omega) > 100);
 
-  const Ran distortion = gsp_run({"distortion", map, "--json", "--per-face", folder.file("faces.csv")});
+  const Ran distortion = gsp_run({"distortion", map, "--json", "--per-face", folder.file("faces.csv"), "--picture",
+                                  folder.file("faces.ply"), "--colour", "smoothness"});
   REQUIRE(distortion.status == 0);
   const json measured = json::parse(distortion.out);
   CHECK(measured["check"]["flipped_faces"] == 0);
   CHECK(measured["anisotropy"]["mean"] >= 1.0);
+  CHECK(measured["sorkine"]["neutral"] == 1);
+  CHECK(measured["l2_stretch_of_map"] >= 1.0);
+  CHECK(measured["smoothness"]["inside_patches"]["edges"] > 0);
   CHECK(size_of(folder.file("faces.csv")) > 1000);
+  CHECK(size_of(folder.file("faces.ply")) > 1000);
 
   const Ran sampled = gsp_run({"remesh", map, "-o", remeshed, "--json"});
   REQUIRE(sampled.status == 0);
@@ -146,6 +151,32 @@ TEST_CASE("the chain of commands: surface, map, remesh, stream, prefix, distance
     CHECK(never.status == 2);
     CHECK_FALSE(std::filesystem::exists(folder.file("x.pgc")));
   }
+}
+
+TEST_CASE("distance says everything it is asked for, in the same bytes for one and two threads") {
+  const TemporaryFolder folder;
+  const std::string a = write_bumpy(folder), b = folder.file("plane.ply");
+  write_mesh(b, shapes::sphere(3));
+  std::vector<std::string> args = {"distance", a, b, "--samples", "20000", "--hausdorff-tolerance", "0.01", "--metro",
+                                   "--mpeg", "--per-vertex", folder.file("v.ply"), "--json", "--threads", "1"};
+  const Ran one = gsp_run(args);
+  CAPTURE(one.err);
+  REQUIRE(one.status == 0);
+  args.back() = "2";
+  CHECK(gsp_run(args).out == one.out);
+  const json report = json::parse(one.out);
+  CHECK(report["hausdorff_bounds"]["both"]["relative_width"] <= 0.01);
+  CHECK(report["hausdorff_bounds"]["both"]["upper"] >= report["hausdorff"]);
+  CHECK(report["forward"]["quantile95"] <= report["forward"]["hausdorff"]);
+  CHECK(report["metro"]["forward"]["face_samples"] > 0);
+  CHECK(report["mpeg_d1"]["formula"].get<std::string>().find("peak") != std::string::npos);
+  CHECK(report["mpeg_d2"]["db"].get<double>() >= report["mpeg_d1"]["db"].get<double>() - 0.05);
+  CHECK(size_of(folder.file("v.ply")) > 1000);
+
+  const Ran precise = gsp_run({"distance", a, b, "--samples", "1000", "--tolerance-db", "0.01", "--json"});
+  REQUIRE(precise.status == 0);
+  CHECK(json::parse(precise.out)["standard_error_db"] <= 0.01);
+  CHECK(gsp_run({"distance", a, b, "--tolerance-db", "-1"}).status == 2);
 }
 
 TEST_CASE("a stream that is none is unusable input") {

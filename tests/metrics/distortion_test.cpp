@@ -58,6 +58,37 @@ TEST_CASE("a linear map has its singular values' ratio everywhere, and even area
   }
 }
 
+TEST_CASE("every measure of a linear map by its formula, and its neutral value for an isometry") {
+  const double ratio = 4.0;  // singular values 2 and 1/2 in units of equal area
+  Parameterization map = hexagon(2);
+  const Distortion isometry = distortion(map);
+  for (const Statistics* s : {&isometry.stretch_l2, &isometry.stretch_linf, &isometry.sorkine}) check_constant(*s, 1.0, 1e-9);
+  check_constant(isometry.conformal, 2.0);
+  check_constant(isometry.area_symmetric, 2.0);
+  CHECK(isometry.l2_stretch == Approx(1.0));
+  for (Vec3& p : map.surface.positions) p.x() *= ratio;
+  const Distortion d = distortion(map);
+  check_constant(d.stretch_l2, std::sqrt((4.0 + 0.25) / 2.0));
+  check_constant(d.stretch_linf, 2.0);
+  check_constant(d.sorkine, 2.0);
+  check_constant(d.conformal, 4.25);
+  check_constant(d.area_symmetric, 2.0);
+  CHECK(d.l2_stretch == Approx(std::sqrt((4.0 + 0.25) / 2.0)));
+  CHECK(d.linf_stretch == Approx(2.0));
+}
+
+TEST_CASE("the L2 stretch of a map is at least 1, whatever the map") {
+  for (int seed = 1; seed <= 5; ++seed) {
+    Parameterization map = exact_maps::quadrisected(shapes::icosahedron(), 3);
+    exact_maps::jitter(map, 0.19, 3, seed);
+    const Distortion d = distortion(map);
+    CHECK(d.l2_stretch > 1.0);
+    CHECK(d.l2_stretch <= d.linf_stretch);
+    CHECK(d.sorkine.minimum >= 1.0);
+    CHECK(d.area_symmetric.minimum >= 2.0);
+  }
+}
+
 TEST_CASE("two halves of different area: the weighted mean, median and maximum by hand") {
   // Two base triangles, one four times as large as the other on the surface.
   Mesh base;

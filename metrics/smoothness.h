@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "metrics/statistics.h"
+#include "param/parameterization.h"
+
+namespace gsp {
+
+/// How smooth a map is: on each edge between two faces, the Frobenius norm of the difference of the two faces' first
+/// derivatives (the map from chart to surface, 2 x 2), which the paper's figure 1 shows. The second face is unfolded into
+/// the first one's plane, so that the surface's own bends do not count, and given in the first one's chart; both
+/// derivatives are in units in which total area on the surface is total area in the charts. 0 is smooth. Inside a smooth
+/// map the difference falls with the faces' size, across a kink it does not, so groups are to be compared with each
+/// other, or maps of the same surface.
+struct Smoothness {
+  Statistics inside;     ///< edges whose two faces lie in one patch
+  Statistics across;     ///< edges with faces on both sides of a patch edge, away from corners
+  Statistics at_corner;  ///< edges with a base vertex in one of their two faces
+  Statistics all;
+  int inside_edges = 0, across_edges = 0, corner_edges = 0;
+  std::vector<double> faces;  ///< #F, mean over a face's edges weighted by their length; 0 where it has none
+};
+
+/// Statistics are weighted by a third of both faces' area. Edges of a face without area on the surface or in its chart,
+/// and those of one or of more than two faces, are left out. The map is well-formed. O(F log F).
+Smoothness smoothness(const Parameterization& map);
+
+}  // namespace gsp
