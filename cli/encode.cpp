@@ -7,7 +7,7 @@
 #include "coder/codec.h"
 #include "experiments/targets.h"
 #include "mesh/atomic_file.h"
-#include "remesh/semiregular_file.h"
+#include "remesh/recover_levels.h"
 
 namespace gsp::cli {
 
@@ -23,7 +23,7 @@ struct Options {
 
 int run_encode(const Options& options, Context& context) {
   Progress progress = context.console.progress();
-  const SemiregularMesh mesh = read_semiregular(options.mesh);
+  const SemiregularMesh mesh = read_or_recover(options.mesh);
   Bytes stream = encode(mesh, options.encode, progress);
   const std::size_t header = header_bytes(stream), whole = stream.size();
   if (options.bytes > 0 && options.bytes < header)
@@ -49,7 +49,7 @@ int run_encode(const Options& options, Context& context) {
 void add_encode(CLI::App& app, Context& context) {
   Command command(app, context, "encode", "a semi-regular mesh as an embedded stream");
   auto options = std::make_shared<Options>();
-  command.argument("MESH", options->mesh, "semi-regular mesh: *.sr.ply");
+  command.argument("MESH", options->mesh, "semi-regular mesh: *.sr.ply, or any mesh with subdivision connectivity");
   command.output("STREAM", options->output, "the stream, *.pgc");
   command.encode_options(options->wavelet, options->encode);
   command.size("--bytes", options->bytes, 0, std::numeric_limits<std::size_t>::max(),

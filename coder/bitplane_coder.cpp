@@ -96,6 +96,7 @@ class BitplaneCoder {
       if ((pass + kBaseDelay) % kPassesPerPlane == 0 && base_plane < layout_.base_planes) base_pass(base_plane);
       for (int level = 0; level < forest_.levels(); ++level)
         for (int c = 0; c < 3; ++c) detail_pass(pass, level, c);
+      if (forest_.levels() < layout_.levels && reaches_below()) throw StreamEnd{};
     }
   }
 
@@ -185,6 +186,21 @@ class BitplaneCoder {
       --low_plane;
     }
     return open;
+  }
+
+  /// Whether the stream may say something of the first level that the forest does not have: it does where there is
+  /// something at the last, or where trees of the level above that one are open. (Nodes below the forest have their
+  /// parents' urgency, so they never ask for more planes of a closed tree than their parents did.)
+  bool reaches_below() const {
+    const int last = forest_.levels() - 1;
+    if (last < 1) return true;
+    for (int c = 0; c < 3; ++c) {
+      for (int n = forest_.level_begin[last]; n < forest_.level_begin[last + 1]; ++n)
+        if (known_.details[c].magnitude[n] != 0) return true;
+      for (int n = forest_.level_begin[last - 1]; n < forest_.level_begin[last]; ++n)
+        if (descendants_[c][n]) return true;
+    }
+    return false;
   }
 
   static std::uint64_t quarters(std::uint64_t magnitude, int plane) { return (magnitude << 2) >> plane; }

@@ -39,6 +39,7 @@ using Urgency = std::function<std::array<std::vector<std::int8_t>, 3>(const Bitp
 struct BitplaneLayout {
   int base_planes = 0;                            ///< bits of a base coordinate, 0..31
   int detail_planes = 0;                          ///< bits of the largest detail magnitude, 0..31
+  int levels = 0;                                 ///< detail levels of the stream; the forest may end earlier
   std::vector<std::vector<int>> base_neighbours;  ///< #B, adjacent base vertices
   Urgency urgency;
 };
@@ -58,7 +59,7 @@ struct BitplaneParts {
 BitplaneParts encode_bitplanes(const EdgeForest& forest, const BitplaneLayout& layout,
                                const BitplaneCoefficients& coefficients, Bytes& out);
 
-/// What the bytes [begin, end) determine. Any bytes are safe.
+/// What the bytes [begin, end) determine, up to the first that speaks of a level below the forest. Any bytes are safe.
 BitplaneCoefficients decode_bitplanes(const EdgeForest& forest, const BitplaneLayout& layout, const std::uint8_t* begin,
                                       const std::uint8_t* end);
 

@@ -40,16 +40,49 @@ void check(const SemiregularMesh& mesh, const EncodeOptions& options) {
     if (!used[v]) throw Error(Cause::Malformed, "a base vertex belongs to no face", Element::Vertex, v);
 }
 
-/// Everything that encoder and decoder derive from the header alone.
+/// Meshes of so many faces are decoded from any prefix; finer levels of larger ones need bytes that speak of them.
+constexpr std::int64_t kFreeFaces = 1 << 18, kFacesPerByte = 2048;
+
+std::int64_t faces_at(const StreamHeader& header, int level) {
+  return static_cast<std::int64_t>(header.base.faces.size()) << (2 * level);
+}
+
+/// The finest level, at most the stream's, with no more than so many faces.
+int finest_level(const StreamHeader& header, std::int64_t faces) {
+  int level = header.level;
+  while (level > 0 && faces_at(header, level) > faces) --level;
+  return level;
+}
+
+/// Level of the reconstruction that importance is read from, at most: at least as coarse as what any prefix decodes to.
+constexpr int kImportanceLevel = 5;
+
+int importance_level(const StreamHeader& header) {
+  return std::min(kImportanceLevel, finest_level(header, kFreeFaces));
+}
+
+/// -1 where no detail is.
+int finest_significant_level(const BitplaneCoefficients& known, const EdgeForest& forest) {
+  int node = forest.nodes() - 1;
+  const auto zero = [&](int n) {
+    return known.details[0].magnitude[n] + known.details[1].magnitude[n] + known.details[2].magnitude[n] == 0;
+  };
+  while (node >= 0 && zero(node)) --node;
+  int level = forest.levels() - 1;
+  while (level >= 0 && node < forest.level_begin[level]) --level;
+  return level;
+}
+
+/// Everything that encoder and decoder derive from the header and the level that they go to.
 struct Structure {
   const StreamHeader& header;
   std::vector<SubdivisionLevel> levels;
   EdgeForest forest;
   WaveletTransform transform;
 
-  explicit Structure(const StreamHeader& h)
+  Structure(const StreamHeader& h, int level)
       : header(h),
-        levels(subdivision_levels(h.base.vertices, h.base.faces, h.level)),
+        levels(subdivision_levels(h.base.vertices, h.base.faces, level)),
         forest(levels),
         transform(levels) {}
 
@@ -72,6 +105,7 @@ struct Structure {
     BitplaneLayout layout;
     layout.base_planes = header.base_planes;
     layout.detail_planes = header.detail_planes;
+    layout.levels = header.level;
     layout.base_neighbours.resize(levels[0].vertex_count);
     for (const auto& [a, b] : levels[0].edges) {
       layout.base_neighbours[a].push_back(b);
@@ -79,7 +113,7 @@ struct Structure {
     }
     layout.urgency = [this](const BitplaneCoefficients& known) {
       std::vector<std::vector<Vec3>> positions;
-      reconstruct(known, std::min(kImportanceLevel, header.level),
+      reconstruct(known, std::min(importance_level(header), finest_significant_level(known, forest) + 2),
                   [&](std::vector<Vec3>&& p) { positions.push_back(std::move(p)); });
       return surface_urgency(levels, forest, positions, header.tangential_ratio);
     };
@@ -106,7 +140,7 @@ Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress
   header.level = mesh.level;
   Bytes connectivity;
   header.base = encode_connectivity(mesh.base_faces, connectivity);
-  const Structure structure(header);
+  const Structure structure(header, header.level);
 
   progress.report("wavelet analysis", 0.1);
   std::vector<Vec3> positions = in_coded_order(mesh, header.base).positions;
@@ -138,14 +172,16 @@ SemiregularMesh decode(const Bytes& stream, std::size_t budget) {
     throw Error(Cause::Truncated, "a coded mesh needs at least its header of " + std::to_string(needed) + " bytes");
   const StreamHeader header = read_header(begin, begin + stream.size());
 
-  const Structure structure(header);
-  const BitplaneCoefficients known =
-      decode_bitplanes(structure.forest, structure.layout(), begin + needed, begin + std::min(budget, stream.size()));
+  const std::size_t end = std::min(budget, stream.size());
+  const std::int64_t affordable = kFacesPerByte * static_cast<std::int64_t>(std::min(end - needed, stream.size()));
   SemiregularMesh mesh;
-  mesh.level = header.level;
+  mesh.level = finest_level(header, std::max(kFreeFaces, affordable));
+  const Structure structure(header, mesh.level);
+  const BitplaneCoefficients known =
+      decode_bitplanes(structure.forest, structure.layout(), begin + needed, begin + end);
   mesh.base_vertices = header.base.vertices;
   mesh.base_faces = header.base.faces;
-  structure.reconstruct(known, header.level, [&](std::vector<Vec3>&& p) { mesh.positions = std::move(p); });
+  structure.reconstruct(known, mesh.level, [&](std::vector<Vec3>&& p) { mesh.positions = std::move(p); });
   return mesh;
 }
 

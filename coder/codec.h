@@ -38,7 +38,9 @@ Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress
 /// Number of bytes that a prefix needs at least. Throws Error(BadStream).
 std::size_t header_bytes(const Bytes& stream);
 
-/// Decodes the first `budget` bytes of the stream (all of them where it is larger). Hostile bytes are safe.
+/// Decodes the first `budget` bytes of the stream (all of them where it is larger). Hostile bytes are safe: memory is
+/// under 100 MB for the first 2^18 faces and less than 1 MB for each further byte. A prefix too short for its finest
+/// levels, less than a byte for 2048 faces, decodes to the level that it can hold.
 /// Throws Error: BadStream where the header is damaged, Truncated where the budget does not hold it.
 SemiregularMesh decode(const Bytes& stream, std::size_t budget);
 

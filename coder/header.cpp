@@ -8,7 +8,7 @@ namespace gsp {
 
 namespace {
 
-constexpr std::array<std::uint8_t, 4> kMagic = {'P', 'G', 'C', 2};
+constexpr std::array<std::uint8_t, 4> kMagic = {'P', 'G', 'C', 3};
 constexpr std::size_t kChecksumEnd = kMagic.size() + 4;
 
 [[noreturn]] void refuse(const std::string& why) { throw Error(Cause::BadStream, "not a usable coded mesh: " + why); }
@@ -71,7 +71,7 @@ class Parser {
 /// Past the magic and the checksum: the size of the rest.
 std::uint64_t size_of_rest(Parser& parser) {
   for (std::uint8_t expected : kMagic)
-    if (parser.byte() != expected) refuse("it does not start with 'PGC' and version 2");
+    if (parser.byte() != expected) refuse("it does not start with 'PGC' and version 3");
   for (int b = 0; b < 4; ++b) parser.byte();
   const std::uint64_t size = parser.varint();
   if (size > static_cast<std::uint64_t>(kMaxDecodedFaces)) refuse("the header is too large");
@@ -97,10 +97,17 @@ Bytes write_header(const StreamHeader& header, const Bytes& connectivity) {
   put_varint(sized, rest.size());
   sized.insert(sized.end(), rest.begin(), rest.end());
   Bytes bytes(kMagic.begin(), kMagic.end());
-  const std::uint32_t crc = crc32(sized.data(), sized.data() + sized.size());
-  for (int b = 0; b < 4; ++b) bytes.push_back(static_cast<std::uint8_t>(crc >> (8 * b)));
+  bytes.resize(kChecksumEnd);
   bytes.insert(bytes.end(), sized.begin(), sized.end());
+  seal_header(bytes);
   return bytes;
+}
+
+void seal_header(Bytes& stream) {
+  const std::size_t size = header_size(stream.data(), stream.data() + stream.size());
+  if (size > stream.size()) refuse("the header ends early");
+  const std::uint32_t crc = crc32(stream.data() + kChecksumEnd, stream.data() + size);
+  for (int b = 0; b < 4; ++b) stream[kMagic.size() + b] = static_cast<std::uint8_t>(crc >> (8 * b));
 }
 
 std::size_t header_size(const std::uint8_t* begin, const std::uint8_t* end) {

@@ -34,6 +34,10 @@ inline constexpr std::int64_t kMaxDecodedFaces = 50'000'000;
 /// `connectivity` is what `encode_connectivity` wrote for `header.base`.
 Bytes write_header(const StreamHeader& header, const Bytes& connectivity);
 
+/// Writes the checksum of the header that `stream` starts with, whatever the header says. Throws Error(BadStream) where
+/// it is cut off.
+void seal_header(Bytes& stream);
+
 /// Bytes of the header that `stream` starts with, without reading more than its first 17 bytes. Throws Error(BadStream)
 /// where it is no gsp stream.
 std::size_t header_size(const std::uint8_t* begin, const std::uint8_t* end);

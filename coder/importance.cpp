@@ -67,10 +67,10 @@ ComponentUrgency surface_urgency(const std::vector<SubdivisionLevel>& levels, co
   std::vector<Moment> moments = face_moments(levels[finest], positions[finest]);
   double total = 0.0;
   for (const Moment& m : moments) total += m.trace();
-  if (!(total > 0.0 && std::isfinite(total))) return urgency;
+  if (finest == 0 || !(total > 0.0 && std::isfinite(total))) return urgency;
   const double least = 1.0 / (tangential_ratio * tangential_ratio);
   for (int l = finest; l >= 0; --l) {
-    if (l < forest.levels()) {
+    if (l < finest) {
       const std::vector<Frame> frames = edge_frames(levels[l], positions[l]);
       const double scale = levels[l].face_count() / total;
       for (int e = 0; e < levels[l].edge_count(); ++e) {
@@ -88,7 +88,7 @@ ComponentUrgency surface_urgency(const std::vector<SubdivisionLevel>& levels, co
     moments.resize(moments.size() / 4);
   }
   for (auto& component : urgency)
-    for (int n = forest.level_begin[std::min(finest + 1, forest.levels())]; n < forest.nodes(); ++n)
+    for (int n = forest.level_begin[std::clamp(finest, 1, forest.levels())]; n < forest.nodes(); ++n)
       component[n] = component[forest.parent[n]];
   return urgency;
 }
