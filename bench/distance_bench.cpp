@@ -2,6 +2,7 @@
 
 #include "mesh/parallel.h"
 #include "mesh/shapes.h"
+#include "metrics/hausdorff.h"
 #include "metrics/surface_distance.h"
 
 namespace {
@@ -27,5 +28,18 @@ void both_directions(benchmark::State& state) {
   set_thread_count(0);
 }
 BENCHMARK(both_directions)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// Certain bounds for two offset surfaces that are far from each other in one place, the usual case, and for two tori
+/// whose distance is largest along whole circles, the hard one.
+void hausdorff(benchmark::State& state) {
+  const bool hard = state.range(0) != 0;
+  Mesh a = hard ? shapes::torus(80, 40) : shapes::sphere(6), b = hard ? shapes::torus(61, 33) : shapes::sphere(5);
+  if (!hard)
+    for (Vec3& p : a.positions) p *= 1.0 + 0.01 * p.x() + 0.003 * p.y() * p.z();
+  const SurfaceTree tree_a(a), tree_b(b);
+  Progress silent;
+  for (auto _ : state) benchmark::DoNotOptimize(hausdorff_bounds(a, tree_a, b, tree_b, {}, silent));
+}
+BENCHMARK(hausdorff)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace

@@ -9,10 +9,10 @@
 #include "mesh/error.h"
 #include "mesh/parallel.h"
 
-/// Compiles a function with all it calls a second time for AVX2, chosen when the program starts. The bits are the same:
+/// Compiles a function with all it calls again for AVX2 and AVX-512, chosen when the program starts. The bits are the same:
 /// lanes work alone, in the same order of operations, and contraction is off.
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__)
-#define GSP_VECTOR_CLONES __attribute__((target_clones("avx2", "default"), flatten))
+#define GSP_VECTOR_CLONES __attribute__((target_clones("avx512f", "avx2", "default"), flatten))
 #else
 #define GSP_VECTOR_CLONES
 #endif

@@ -241,3 +241,16 @@ TEST_CASE("distances of vertices are those of their points") {
   for (std::size_t v = 0; v < distances.size(); v += 37)
     CHECK(distances[v] == Approx(brute_force_distance(a.positions[v], b)).epsilon(1e-12));
 }
+
+TEST_CASE("renumbering vertices and faces leaves the distance as it is, within its standard error") {
+  const Mesh a = shapes::sphere(3), b = shapes::torus(30, 12, 0.8, 0.3);
+  Mesh other = a;
+  const int last = a.vertex_count() - 1;
+  std::reverse(other.positions.begin(), other.positions.end());
+  std::reverse(other.faces.begin(), other.faces.end());
+  for (Triangle& t : other.faces) t = {last - t[1], last - t[2], last - t[0]};
+  const SurfaceDistance plain = measure(a, b), renumbered = measure(other, b);
+  CHECK(std::abs(renumbered.forward.rms - plain.forward.rms) < 6.0 * plain.forward.rms_standard_error);
+  CHECK(std::abs(renumbered.backward.rms - plain.backward.rms) < 6.0 * plain.backward.rms_standard_error);
+  CHECK(renumbered.forward.mean == Approx(plain.forward.mean).epsilon(1e-3));
+}
