@@ -56,6 +56,7 @@ int run_curve(Options& options, Context& context) {
   options.curve.methods.clear();
   for (const std::string& word : options.methods) options.curve.methods.push_back(method_of(word));
   options.curve.anchors = !options.no_anchors;
+  options.curve.encode.wavelet = wavelet_of(options.wavelet);
   const CurveJobResult job = curve_job(surface_files(options.meshes), options.output, options.curve, progress);
   if (context.json) {
     print_report(context, job_report(job));

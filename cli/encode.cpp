@@ -24,7 +24,9 @@ struct Options {
 int run_encode(const Options& options, Context& context) {
   Progress progress = context.console.progress();
   const SemiregularMesh mesh = read_or_recover(options.mesh);
-  Bytes stream = encode(mesh, options.encode, progress);
+  EncodeOptions encode_options = options.encode;
+  encode_options.wavelet = wavelet_of(options.wavelet);
+  Bytes stream = encode(mesh, encode_options, progress);
   const std::size_t header = header_bytes(stream), whole = stream.size();
   if (options.bytes > 0 && options.bytes < header)
     throw Error(Cause::BadOption, "the header alone takes " + std::to_string(header) + " bytes");

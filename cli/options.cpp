@@ -155,7 +155,9 @@ void Command::level_option(RemeshOptions& options) {
 }
 
 void Command::encode_options(std::string& wavelet, EncodeOptions& options) {
-  choice("--wavelet", wavelet, {wavelet_name(Wavelet::Loop)}, "wavelet transform");
+  std::vector<std::string> wavelets;
+  for (Wavelet w : kWavelets) wavelets.emplace_back(wavelet_name(w));
+  choice("--wavelet", wavelet, wavelets, "wavelet transform");
   integer("--precision-bits", options.precision_bits, 8, 24,
           "bits of the finest step relative to the bounding box: where the whole stream ends");
   app_->add_option("--tangential-ratio", options.tangential_ratio,

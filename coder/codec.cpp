@@ -84,7 +84,7 @@ struct Structure {
       : header(h),
         levels(subdivision_levels(h.base.vertices, h.base.faces, level)),
         forest(levels),
-        transform(levels) {}
+        transform(levels, h.wavelet) {}
 
   /// Positions of levels 0 to `level` from what is known of the coefficients, `visit`ed one by one.
   template <class Visit>
@@ -127,8 +127,20 @@ const char* wavelet_name(Wavelet wavelet) {
   switch (wavelet) {
     case Wavelet::Loop:
       return "loop";
+    case Wavelet::Loop11:
+      return "loop-11";
+    case Wavelet::Butterfly:
+      return "butterfly";
+    case Wavelet::ButterflyLifted:
+      return "butterfly-lifted";
   }
   return "unknown";
+}
+
+Wavelet wavelet_of(const std::string& name) {
+  for (Wavelet wavelet : kWavelets)
+    if (name == wavelet_name(wavelet)) return wavelet;
+  throw Error(Cause::BadOption, "there is no wavelet '" + name + "'");
 }
 
 Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress& progress) {

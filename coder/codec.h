@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "coder/wavelet_transform.h"
 #include "mesh/progress.h"
 #include "remesh/semiregular.h"
 
@@ -11,9 +13,10 @@ namespace gsp {
 
 using Bytes = std::vector<std::uint8_t>;
 
-enum class Wavelet : std::uint8_t { Loop = 0 };
-
 const char* wavelet_name(Wavelet wavelet);
+
+/// The inverse. Throws Error(BadOption).
+Wavelet wavelet_of(const std::string& name);
 
 struct EncodeOptions {
   Wavelet wavelet = Wavelet::Loop;

@@ -1,5 +1,6 @@
 #include "coder/header.h"
 
+#include <iterator>
 #include <string>
 
 #include "mesh/error.h"
@@ -128,7 +129,8 @@ StreamHeader read_header(const std::uint8_t* begin, const std::uint8_t* end) {
   size_of_rest(parser);
   StreamHeader header;
   const int kinds = parser.byte();
-  if ((kinds & 15) != static_cast<int>(Wavelet::Loop)) refuse("its wavelet is unknown");
+  if ((kinds & 15) >= static_cast<int>(std::size(kWavelets))) refuse("its wavelet is unknown");
+  header.wavelet = static_cast<Wavelet>(kinds & 15);
   if (kinds >> 4 > 3) refuse("its tangential ratio is out of range");
   header.tangential_ratio = 1 << (kinds >> 4);
   header.level = parser.byte_within(kMaxSubdivisionLevel);

@@ -44,7 +44,8 @@ struct OtherSides {
 
 class HighPass {
  public:
-  explicit HighPass(const SubdivisionLevel& coarse) : level_(coarse), fans_(fans(coarse)) {}
+  HighPass(const SubdivisionLevel& coarse, bool mirror_symmetric)
+      : level_(coarse), mirror_symmetric_(mirror_symmetric), fans_(fans(coarse)) {}
 
   SparseMatrix build() {
     boundary_neighbours();
@@ -118,6 +119,7 @@ class HighPass {
   void near_side(int face, int e, int from, int to) {
     const OtherSides s = sides(face, e, from, to);
     add(s.opposite, -2.0 / 16);
+    if (mirror_symmetric_) return;
     add(odd(s.at_from), 6.0 / 16);
     add(odd(s.at_to), -6.0 / 16);
   }
@@ -134,7 +136,7 @@ class HighPass {
     const int beyond = across(edge, face);
     if (beyond < 0) return;
     const OtherSides s = sides(beyond, edge, corner, opposite);
-    add(odd(s.at_from), weight);
+    if (!mirror_symmetric_) add(odd(s.at_from), weight);
     add(odd(s.at_to), 1.0 / 16);
   }
 
@@ -179,6 +181,7 @@ class HighPass {
   }
 
   const SubdivisionLevel& level_;
+  bool mirror_symmetric_;
   std::vector<Fan> fans_;
   std::vector<std::array<int, 2>> boundary_edges_;
   std::vector<Tap> taps_;
@@ -217,6 +220,8 @@ SparseMatrix loop_low_pass(const SubdivisionLevel& coarse) {
   return matrix;
 }
 
-SparseMatrix loop_high_pass(const SubdivisionLevel& coarse) { return HighPass(coarse).build(); }
+SparseMatrix loop_high_pass(const SubdivisionLevel& coarse, bool mirror_symmetric) {
+  return HighPass(coarse, mirror_symmetric).build();
+}
 
 }  // namespace gsp

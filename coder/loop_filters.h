@@ -17,6 +17,8 @@ SparseMatrix loop_low_pass(const SubdivisionLevel& coarse);
 /// per edge of the coarse level, centred on the vertex that the edge inserts. Loop's mask with signs alternating, 19
 /// taps on a regular lattice. Beside irregular vertices and boundaries the taps that do not exist are left out, and the
 /// column's zero sum is restored on its even taps. Boundary edges take the cubic spline's mask.
-SparseMatrix loop_high_pass(const SubdivisionLevel& coarse);
+/// `mirror_symmetric`: the mean of the two signings that are possible, which is the same seen from either side of the
+/// edge and has 11 taps, all on the edge's line and the two beside it.
+SparseMatrix loop_high_pass(const SubdivisionLevel& coarse, bool mirror_symmetric = false);
 
 }  // namespace gsp

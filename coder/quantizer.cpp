@@ -8,9 +8,20 @@ namespace gsp {
 
 namespace {
 
-/// Limit L2 norms at unit spacing (algorithms.md §5).
-constexpr double kScalingNorm = 0.5125;
-constexpr double kWaveletNorm = 0.374;
+/// L2 norm of the wavelet over that of the scaling function, in the limit and at equal spacing (algorithms.md §5).
+double wavelet_norm(Wavelet wavelet) {
+  switch (wavelet) {
+    case Wavelet::Loop:
+      return 0.374 / 0.5125;
+    case Wavelet::Loop11:
+      return 0.275 / 0.5125;
+    case Wavelet::Butterfly:
+      return 1.0;
+    case Wavelet::ButterflyLifted:
+      return 0.685 / 0.792;
+  }
+  return 1.0;
+}
 
 /// Steps are that much finer than the precision asked for, so that urgent nodes can end finer than the others.
 constexpr int kSpareBits = kMaxUrgency / kPassesPerPlane;
@@ -21,7 +32,7 @@ double detail_step(const StreamHeader& header, int level) {
 }
 
 double base_step(const StreamHeader& header) {
-  return std::ldexp(1.0, header.step_exponent - header.level) * (kWaveletNorm / kScalingNorm);
+  return std::ldexp(1.0, header.step_exponent - header.level) * wavelet_norm(header.wavelet);
 }
 
 double origin_unit(const StreamHeader& header) { return std::ldexp(base_step(header), header.base_planes - 3); }

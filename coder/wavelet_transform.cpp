@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "coder/butterfly_filters.h"
 #include "coder/loop_filters.h"
 #include "mesh/error.h"
 #include "mesh/parallel.h"
@@ -55,14 +56,33 @@ void for_each(std::size_t count, Body body) {
 /// a / b, 0 where b is: a coordinate that is solved exactly stands still.
 Scalars ratio(const Scalars& a, const Scalars& b) { return (b != 0.0).select(a / (b != 0.0).select(b, 1.0), 0.0); }
 
+/// The high-pass of an interpolating scheme: each detail moves the vertex on its edge.
+SparseMatrix new_vertices(const SubdivisionLevel& level) {
+  SparseMatrix matrix(level.vertex_count + level.edge_count(), level.edge_count());
+  matrix.reserve(Eigen::VectorXi::Ones(matrix.rows()));
+  for (int e = 0; e < level.edge_count(); ++e) matrix.insert(level.vertex_count + e, e) = 1.0;
+  matrix.makeCompressed();
+  return matrix;
+}
+
 }  // namespace
 
 struct WaveletTransform::Impl {
   SparseMatrix low_pass, high_pass;
+  SparseMatrix update;  ///< of lifted wavelets, else empty: synthesis is P (c - update d) + Q d
 
-  /// [P Q] times (coarse, details).
+  /// Both filters of (coarse, details).
   Points synthesis(const Vec3* coarse, const Vec3* details) const {
     Points fine(low_pass.rows(), Vec3::Zero());
+    Points lifted;
+    if (update.size() != 0) {
+      lifted.assign(low_pass.cols(), Vec3::Zero());
+      parallel_for(lifted.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        add_product(update, details, begin, end, lifted);
+        for (std::size_t v = begin; v < end; ++v) lifted[v] = coarse[v] - lifted[v];
+      });
+      coarse = lifted.data();
+    }
     parallel_for(fine.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       add_product(low_pass, coarse, begin, end, fine);
       add_product(high_pass, details, begin, end, fine);
@@ -72,9 +92,16 @@ struct WaveletTransform::Impl {
   Points synthesis(const Points& both) const { return synthesis(both.data(), both.data() + low_pass.cols()); }
 };
 
-WaveletTransform::WaveletTransform(const std::vector<SubdivisionLevel>& levels) {
-  for (std::size_t l = 0; l + 1 < levels.size(); ++l)
-    impl_.push_back({loop_low_pass(levels[l]), loop_high_pass(levels[l])});
+WaveletTransform::WaveletTransform(const std::vector<SubdivisionLevel>& levels, Wavelet wavelet) {
+  for (std::size_t l = 0; l + 1 < levels.size(); ++l) {
+    const SubdivisionLevel& level = levels[l];
+    if (wavelet == Wavelet::Loop || wavelet == Wavelet::Loop11) {
+      impl_.push_back({loop_low_pass(level), loop_high_pass(level, wavelet == Wavelet::Loop11), {}});
+    } else {
+      const bool lifted = wavelet == Wavelet::ButterflyLifted;
+      impl_.push_back({butterfly_low_pass(level), new_vertices(level), lifted ? butterfly_update(level) : SparseMatrix()});
+    }
+  }
 }
 
 WaveletTransform::~WaveletTransform() = default;

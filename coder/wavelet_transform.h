@@ -1,11 +1,17 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "mesh/progress.h"
 #include "remesh/semiregular.h"
 
 namespace gsp {
+
+/// Loop's low-pass with its quadrature-mirror high-pass of 19 taps (the progressive geometry coder's) or of 11 taps;
+/// Butterfly interpolation, whose unlifted details keep the normality of normal meshes, and lifted to have no mean.
+enum class Wavelet : std::uint8_t { Loop = 0, Loop11 = 1, Butterfly = 2, ButterflyLifted = 3 };
+inline constexpr Wavelet kWavelets[] = {Wavelet::Loop, Wavelet::Loop11, Wavelet::Butterfly, Wavelet::ButterflyLifted};
 
 /// Synthesis x_{l+1} = P x_l + Q d_l over the levels of one connectivity, and its inverse.
 ///
@@ -14,7 +20,7 @@ namespace gsp {
 class WaveletTransform {
  public:
   /// Builds P and Q of every level. O(vertices).
-  explicit WaveletTransform(const std::vector<SubdivisionLevel>& levels);
+  explicit WaveletTransform(const std::vector<SubdivisionLevel>& levels, Wavelet wavelet = Wavelet::Loop);
   ~WaveletTransform();
   WaveletTransform(WaveletTransform&&) noexcept;
 

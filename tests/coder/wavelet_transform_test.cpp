@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
+#include "coder/butterfly_filters.h"
+#include "coder/codec.h"
 #include "coder/loop_filters.h"
 #include "tests/coder/sample_meshes.h"
 
@@ -25,10 +27,18 @@ Mesh bipyramid(int k) {
   return mesh;
 }
 
-double condition(const SubdivisionLevel& level) {
-  const Eigen::MatrixXd low = loop_low_pass(level), high = loop_high_pass(level);
-  Eigen::MatrixXd both(low.rows(), low.cols() + high.cols());
-  both << low, high;
+/// Of the synthesis of one step, its columns made equally long.
+double condition(const std::vector<SubdivisionLevel>& levels, Wavelet wavelet) {
+  const WaveletTransform transform(levels, wavelet);
+  const int level = transform.levels() - 1, size = levels[level].vertex_count + levels[level].edge_count();
+  Eigen::MatrixXd both(size, size);
+  for (int i = 0; i < size; ++i) {
+    std::vector<Vec3> unit(size, Vec3::Zero());
+    unit[i].x() = 1.0;
+    const auto middle = unit.begin() + levels[level].vertex_count;
+    const std::vector<Vec3> column = transform.synthesis(level, {unit.begin(), middle}, {middle, unit.end()});
+    for (int r = 0; r < size; ++r) both(r, i) = column[r].x();
+  }
   both.colwise().normalize();
   const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(both).singularValues();
   return values(0) / values(values.size() - 1);
@@ -79,24 +89,57 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the synthesis is well conditioned at every valence and beside boundaries") {
-  CHECK(condition(levels_of(shapes::lattice_torus(8, 8), 0)[0]) < 4.2);
-  for (int valence = 3; valence <= 12; ++valence) {
-    CHECK(condition(levels_of(bipyramid(valence), 1)[1]) < 6.0);
-    CHECK(condition(levels_of(shapes::sector_disc(valence, 0), 1)[1]) < 6.0);
+TEST_CASE("the synthesis of every wavelet is well conditioned at every valence and beside boundaries") {
+  struct Bound {
+    Wavelet wavelet;
+    double lattice, anywhere;
+  };
+  for (const Bound& bound : {Bound{Wavelet::Loop, 4.2, 6.0}, Bound{Wavelet::Loop11, 5.7, 8.0},
+                             Bound{Wavelet::Butterfly, 3.9, 6.0}, Bound{Wavelet::ButterflyLifted, 2.4, 5.0}}) {
+    INFO(wavelet_name(bound.wavelet));
+    CHECK(condition(levels_of(shapes::lattice_torus(8, 8), 1), bound.wavelet) < bound.lattice);
+    for (int valence = 3; valence <= 12; ++valence) {
+      CHECK(condition(levels_of(bipyramid(valence), 2), bound.wavelet) < bound.anywhere);
+      CHECK(condition(levels_of(shapes::sector_disc(valence, 0), 2), bound.wavelet) < bound.anywhere);
+    }
+    CHECK(condition(levels_of(shapes::grid(5, 5), 1), bound.wavelet) < bound.anywhere);
   }
-  CHECK(condition(levels_of(shapes::grid(5, 5), 0)[0]) < 6.0);
+}
+
+TEST_CASE("Butterfly reproduces constants everywhere and quadratics between regular vertices") {
+  for (const Mesh& base : {shapes::sector_disc(5, 1), shapes::grid(3, 4), shapes::sector_disc(6, 3)}) {
+    const SubdivisionLevel level = levels_of(base, 0)[0];
+    const SparseMatrix low = butterfly_low_pass(level);
+    CHECK((low * Eigen::VectorXd::Ones(low.cols()) - Eigen::VectorXd::Ones(low.rows())).cwiseAbs().maxCoeff() < 1e-14);
+  }
+  const Mesh disc = shapes::sector_disc(6, 3);
+  const SubdivisionLevel level = levels_of(disc, 0)[0];
+  const SparseMatrix low = butterfly_low_pass(level);
+  for (int e = 0; e < level.edge_count(); ++e) {
+    const Vec3 middle = (disc.positions[level.edges[e][0]] + disc.positions[level.edges[e][1]]) / 2;
+    if (middle.norm() > 0.5) continue;  // beside the boundary only constants are reproduced
+    Vec3 sum = Vec3::Zero();
+    double square = 0.0;
+    for (SparseMatrix::InnerIterator it(low, level.vertex_count + e); it; ++it) {
+      sum += it.value() * disc.positions[it.col()];
+      square += it.value() * disc.positions[it.col()].x() * disc.positions[it.col()].x();
+    }
+    CHECK((sum - middle).norm() < 1e-14);
+    CHECK(square == Approx(middle.x() * middle.x()).margin(1e-14));
+  }
 }
 
 TEST_CASE("analysis and synthesis invert each other to rounding") {
   for (const SemiregularMesh& mesh : {samples::noise(shapes::tetrahedron(), 4), samples::noise(shapes::grid(3, 2), 3),
                                       samples::noise(shapes::torus(5, 4), 3), samples::bumpy_sphere(4)}) {
-    const WaveletTransform transform(subdivision_levels(mesh.base_vertices, mesh.base_faces, mesh.level));
-    const WaveletTransform::Split split = transform.analysis(mesh.level - 1, mesh.positions);
-    const std::vector<Vec3> back = transform.synthesis(mesh.level - 1, split.coarse, split.details);
-    double worst = 0.0;
-    for (std::size_t v = 0; v < back.size(); ++v) worst = std::max(worst, (back[v] - mesh.positions[v]).norm());
-    CHECK(worst < 1e-12);
+    for (Wavelet wavelet : kWavelets) {
+      const WaveletTransform transform(subdivision_levels(mesh.base_vertices, mesh.base_faces, mesh.level), wavelet);
+      const WaveletTransform::Split split = transform.analysis(mesh.level - 1, mesh.positions);
+      const std::vector<Vec3> back = transform.synthesis(mesh.level - 1, split.coarse, split.details);
+      double worst = 0.0;
+      for (std::size_t v = 0; v < back.size(); ++v) worst = std::max(worst, (back[v] - mesh.positions[v]).norm());
+      CHECK(worst < 1e-12);
+    }
   }
 }
 
