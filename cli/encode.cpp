@@ -21,12 +21,30 @@ struct Options {
   double psnr = 0.0;
 };
 
+/// Bytes of the whole stream by what they say.
+Json parts_report(const StreamParts& parts) {
+  const auto bytes = [](double bits) { return static_cast<std::size_t>(bits / 8.0 + 0.5); };
+  Json report = {{"header", parts.header_bytes},
+                 {"connectivity", parts.connectivity_bytes},
+                 {"base", bytes(parts.bits.base)}};
+  const char* const names[] = {"normal", "tangential_1", "tangential_2"};
+  for (int c = 0; c < 3; ++c) {
+    const BitplaneParts::Component& part = parts.bits.details[c];
+    report[names[c]] = {{"trees", bytes(part.trees)},
+                        {"significance", bytes(part.significance)},
+                        {"signs", bytes(part.signs)},
+                        {"refinement", bytes(part.refinement)}};
+  }
+  return report;
+}
+
 int run_encode(const Options& options, Context& context) {
   Progress progress = context.console.progress();
   const SemiregularMesh mesh = read_or_recover(options.mesh);
   EncodeOptions encode_options = options.encode;
   encode_options.wavelet = wavelet_of(options.wavelet);
-  Bytes stream = encode(mesh, encode_options, progress);
+  StreamParts parts;
+  Bytes stream = encode(mesh, encode_options, progress, &parts);
   const std::size_t header = header_bytes(stream), whole = stream.size();
   if (options.bytes > 0 && options.bytes < header)
     throw Error(Cause::BadOption, "the header alone takes " + std::to_string(header) + " bytes");
@@ -42,6 +60,7 @@ int run_encode(const Options& options, Context& context) {
                          {"bytes", stream.size()},
                          {"header_bytes", header},
                          {"whole_stream_bytes", whole},
+                         {"bytes_by_part", parts_report(parts)},
                          {"output", options.output}});
   return 0;
 }

@@ -143,7 +143,7 @@ Wavelet wavelet_of(const std::string& name) {
   throw Error(Cause::BadOption, "there is no wavelet '" + name + "'");
 }
 
-Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress& progress) {
+Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress& progress, StreamParts* parts) {
   check(mesh, options);
   progress.report("connectivity", 0.0);
   StreamHeader header;
@@ -170,7 +170,9 @@ Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress
   const double diagonal = bounding_box_diagonal(mesh.mesh());
   const BitplaneCoefficients integers = quantize(positions, details, diagonal, options.precision_bits, header);
   Bytes bytes = write_header(header, connectivity);
-  encode_bitplanes(structure.forest, structure.layout(), integers, bytes);
+  const std::size_t header_size = bytes.size();
+  const BitplaneParts bits = encode_bitplanes(structure.forest, structure.layout(), integers, bytes);
+  if (parts) *parts = {header_size - connectivity.size(), connectivity.size(), bits};
   progress.report("entropy coding", 1.0);
   return bytes;
 }

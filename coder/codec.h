@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "coder/bitplane_coder.h"
 #include "coder/wavelet_transform.h"
 #include "mesh/progress.h"
 #include "remesh/semiregular.h"
@@ -29,14 +30,22 @@ struct EncodeOptions {
   int tangential_ratio = 8;
 };
 
+/// What the whole stream is made of.
+struct StreamParts {
+  std::size_t header_bytes = 0;  ///< without the connectivity
+  std::size_t connectivity_bytes = 0;
+  BitplaneParts bits;
+};
+
 /// Codes a semi-regular mesh as an embedded stream: a checksummed header with the base connectivity, then bit-planes,
 /// most significant first. Any prefix that holds the header decodes (design.md, `*.pgc`).
 ///
 /// A decoder numbers base vertices and faces, and with them all finer vertices, in the order in which they were coded;
 /// `coded_vertex_order` (coder/coded_order.h) says which vertex became which.
-/// Throws Error: BadOption, NoFaces, NonFinite, Malformed (a base vertex without a face), SolverFailed, and the errors
+/// `parts`, where given, receives the sizes. Throws Error: BadOption, NoFaces, NonFinite, Malformed (a base vertex without a face), SolverFailed, and the errors
 /// of `base_level`.
-Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress& progress);
+Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress& progress,
+             StreamParts* parts = nullptr);
 
 /// Number of bytes that a prefix needs at least. Throws Error(BadStream).
 std::size_t header_bytes(const Bytes& stream);

@@ -59,6 +59,15 @@ TEST_CASE("a decoded mesh is coded to itself, bit for bit the same every time") 
   CHECK(once.mesh().faces.size() == mesh.mesh().faces.size());
 }
 
+TEST_CASE("the parts of a stream add up to it") {
+  StreamParts parts;
+  const Bytes stream = encode(samples::bumpy_sphere(4), {}, silent, &parts);
+  CHECK(parts.header_bytes + parts.connectivity_bytes == header_bytes(stream));
+  double bits = parts.bits.base;
+  for (const BitplaneParts::Component& c : parts.bits.details) bits += c.trees + c.significance + c.signs + c.refinement;
+  CHECK(bits / 8.0 == Approx(stream.size() - header_bytes(stream)).epsilon(0.005));
+}
+
 TEST_CASE("every prefix that holds the header decodes, and more bytes are better") {
   const SemiregularMesh mesh = samples::bumpy_sphere(4);
   const Bytes stream = encode(mesh, {}, silent);
