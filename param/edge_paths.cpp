@@ -4,20 +4,15 @@
 
 namespace gsp {
 
-EdgePaths::EdgePaths(const Surface& surface, int triangles)
-    : surface_(surface),
-      list_of_(surface.edge_count(), -1),
-      crossing_(triangles),
-      star_index_(triangles, -1),
-      seen_(surface.edge_count(), 0) {}
+EdgePaths::EdgePaths(int edges, int triangles)
+    : list_of_(edges, -1), crossing_(triangles), star_index_(triangles, -1), seen_(edges, 0) {}
 
 const std::vector<int>& EdgePaths::path(int edge) const {
   static const std::vector<int> none;
   return list_of_[edge] < 0 ? none : lists_[list_of_[edge]];
 }
 
-void EdgePaths::begin(const Star& star, const std::vector<std::vector<int>>& points) {
-  star_ = star;
+void EdgePaths::begin(const Surface& surface, const Star& star, const std::vector<std::vector<int>>& points) {
   affected_.clear();
   for (std::size_t k = 0; k < star.triangles.size(); ++k) star_index_[star.triangles[k]] = static_cast<int>(k);
   const auto take = [&](int edge) {
@@ -33,7 +28,7 @@ void EdgePaths::begin(const Star& star, const std::vector<std::vector<int>>& poi
     crossing_[t].clear();
   }
   const auto take_around = [&](int vertex) {
-    surface_.for_each_neighbour(vertex, [&](int, int edge, bool) {
+    surface.for_each_neighbour(vertex, [&](int, int edge, bool) {
       if (list_of_[edge] < 0) take(edge);
     });
   };
@@ -68,11 +63,11 @@ void EdgePaths::append_tree_path(int from, int to, std::vector<int>& path) const
   path.insert(path.end(), tail.rbegin(), tail.rend());
 }
 
-void EdgePaths::rebuild(const TriangleComplex& complex, const Affected& affected,
+void EdgePaths::rebuild(const Surface& surface, const TriangleComplex& complex, const Affected& affected,
                         const std::vector<Location>& locations, std::vector<int>& path) const {
   path.clear();
-  const int h = surface_.edge_halfedge[affected.edge];
-  const int start = surface_.halfedges.from(h), end = surface_.halfedges.to(h);
+  const int h = surface.edge_halfedge[affected.edge];
+  const int start = surface.halfedges.from(h), end = surface.halfedges.to(h);
   const std::vector<int>& old = affected.path;
   if (old.empty()) {
     append_tree_path(start_slot(complex, start, locations), start_slot(complex, end, locations), path);
@@ -108,14 +103,15 @@ void EdgePaths::rebuild(const TriangleComplex& complex, const Affected& affected
     while (path.size() > 1 && complex.corner_index(path[path.size() - 2], end) >= 0) path.pop_back();
 }
 
-void EdgePaths::store(int edge, const std::vector<int>& path) {
+/// False where nothing is kept.
+bool EdgePaths::keep(int edge, const std::vector<int>& path) {
   if (path.size() <= 1) {
     if (list_of_[edge] >= 0) {
       lists_[list_of_[edge]].clear();
       free_lists_.push_back(list_of_[edge]);
       list_of_[edge] = -1;
     }
-    return;
+    return false;
   }
   if (list_of_[edge] < 0) {
     if (free_lists_.empty()) {
@@ -126,14 +122,18 @@ void EdgePaths::store(int edge, const std::vector<int>& path) {
     free_lists_.pop_back();
   }
   lists_[list_of_[edge]] = path;
-  for (int t : path)
-    if (std::find(slots_.begin(), slots_.end(), t) != slots_.end()) crossing_[t].push_back(edge);
+  return true;
 }
 
-void EdgePaths::finish(const TriangleComplex& complex, const std::vector<RingTriangle>& triangles,
-                       const std::vector<int>& slots, const std::vector<Location>& locations) {
+void EdgePaths::set(int edge, const std::vector<int>& path) {
+  if (!keep(edge, path)) return;
+  for (int t : path) crossing_[t].push_back(edge);
+}
+
+void EdgePaths::finish(const Surface& surface, const TriangleComplex& complex, const Star& star,
+                       const std::vector<RingTriangle>& triangles, const std::vector<int>& slots, const std::vector<Location>& locations) {
   slots_ = slots;
-  const int n = star_.size();
+  const int n = star.size();
   slot_of_ring_edge_.assign(n, -1);
   for (std::size_t i = 0; i < triangles.size(); ++i)
     for (int k = 0; k < 3; ++k)
@@ -155,11 +155,13 @@ void EdgePaths::finish(const TriangleComplex& complex, const std::vector<RingTri
     }
   std::vector<int> path;
   for (const Affected& affected : affected_) {
-    rebuild(complex, affected, locations, path);
-    store(affected.edge, path);
+    rebuild(surface, complex, affected, locations, path);
+    if (keep(affected.edge, path))
+      for (int t : path)
+        if (std::find(slots_.begin(), slots_.end(), t) != slots_.end()) crossing_[t].push_back(affected.edge);
     seen_[affected.edge] = 0;
   }
-  for (int t : star_.triangles) star_index_[t] = -1;
+  for (int t : star.triangles) star_index_[t] = -1;
 }
 
 }  // namespace gsp

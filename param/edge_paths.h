@@ -14,12 +14,16 @@ namespace gsp {
 /// whichever end is not a corner, or, between two corners, along an edge of the complex.
 class EdgePaths {
  public:
-  explicit EdgePaths(const Surface& surface, int triangles);
+  EdgePaths(int edges, int triangles);
 
   /// Where a removal stands: call `begin` before the complex changes and `finish` after vertices were relocated.
-  void begin(const Star& star, const std::vector<std::vector<int>>& points);
-  void finish(const TriangleComplex& complex, const std::vector<RingTriangle>& triangles, const std::vector<int>& slots,
+  void begin(const Surface& surface, const Star& star, const std::vector<std::vector<int>>& points);
+  void finish(const Surface& surface, const TriangleComplex& complex, const Star& star,
+              const std::vector<RingTriangle>& triangles, const std::vector<int>& slots,
               const std::vector<Location>& locations);
+
+  /// Replaces the list of an edge.
+  void set(int edge, const std::vector<int>& path);
 
   /// The list of an edge from its start (`edge_halfedge`'s tail) to its end; empty where it holds none.
   const std::vector<int>& path(int edge) const;
@@ -33,18 +37,16 @@ class EdgePaths {
   int slot_at_ring_edge(int ring_edge) const { return slot_of_ring_edge_[ring_edge]; }
   int start_slot(const TriangleComplex& complex, int vertex, const std::vector<Location>& locations) const;
   void append_tree_path(int from, int to, std::vector<int>& path) const;
-  void rebuild(const TriangleComplex& complex, const Affected& affected, const std::vector<Location>& locations,
-               std::vector<int>& path) const;
-  void store(int edge, const std::vector<int>& path);
+  void rebuild(const Surface& surface, const TriangleComplex& complex, const Affected& affected,
+               const std::vector<Location>& locations, std::vector<int>& path) const;
+  bool keep(int edge, const std::vector<int>& path);
 
-  const Surface& surface_;
   std::vector<int> list_of_;                 ///< #E index into lists_, -1 without a list
   std::vector<std::vector<int>> lists_;
   std::vector<int> free_lists_;
   std::vector<std::vector<int>> crossing_;   ///< per triangle, edges whose list has it (may hold stale ones)
 
-  Star star_;
-  std::vector<int> star_index_;              ///< per triangle slot, its index in star_ or -1
+  std::vector<int> star_index_;              ///< per triangle slot, its index in the star or -1
   std::vector<Affected> affected_;
   std::vector<char> seen_;                   ///< per edge, while affected_ is collected
   std::vector<int> slots_;

@@ -46,15 +46,17 @@ Folds find_folds(const Atlas& atlas) {
   return folds;
 }
 
-bool wound_rightly(const Atlas& atlas, int vertex) {
+LocalMap local_map(const Atlas& atlas, int vertex) {
   double sum = 0.0;
   const int start = atlas.surface->halfedges.outgoing[vertex];
   int h = start;
   do {
-    sum += angle_at(atlas.face_corners(h / 3, atlas.face_frame(h / 3)), h % 3);
+    const auto z = atlas.face_corners(h / 3, atlas.face_frame(h / 3));
+    if (!upright(z[0], z[1], z[2])) return LocalMap::Folded;
+    sum += angle_at(z, h % 3);
     h = atlas.surface->halfedges.rotate_ccw(h);
   } while (h >= 0 && h != start);
-  return is_right_angle_sum(atlas, vertex, sum);
+  return is_right_angle_sum(atlas, vertex, sum) ? LocalMap::Injective : LocalMap::Miswound;
 }
 
 }  // namespace gsp

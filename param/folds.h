@@ -19,8 +19,13 @@ struct Folds {
 /// O(F). Vertices of folded faces are not listed again under `vertices`.
 Folds find_folds(const Atlas& atlas);
 
-/// Whether the faces around the vertex, all of them upright, go round it exactly as often as they should.
-bool wound_rightly(const Atlas& atlas, int vertex);
+/// How the faces around one vertex lie.
+enum class LocalMap {
+  Injective,  ///< all upright, and round the vertex exactly as often as they should
+  Folded,     ///< some not upright
+  Miswound    ///< all upright, but round the vertex once too often or too rarely
+};
+LocalMap local_map(const Atlas& atlas, int vertex);
 
 /// Whether a chart triangle has positive area, clear of rounding.
 bool upright(Complex a, Complex b, Complex c);

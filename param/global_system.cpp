@@ -1,7 +1,5 @@
 #include "param/global_system.h"
 
-#include <algorithm>
-
 #include "mesh/error.h"
 #include "param/sparse_solver.h"
 
@@ -24,22 +22,34 @@ void move_to_boundary_chart(Atlas& atlas, int vertex, int base_halfedge) {
   throw Error(Cause::Internal, "a boundary vertex left its boundary edge", Element::Vertex, vertex);
 }
 
-double corner_distance(Complex z) {
-  return std::min({std::abs(z - kChartCorners[0].value()), std::abs(z - kChartCorners[1].value()),
-                   std::abs(z - kChartCorners[2].value())});
+/// Calls visit(base half-edge, chain) for every boundary edge of the base, with the surface's vertices along it after its
+/// first corner, up to and with its last.
+template <class Visit>
+void for_each_boundary_edge(const Atlas& atlas, Visit&& visit) {
+  const Halfedges& halfedges = atlas.surface->halfedges;
+  std::vector<int> chain;
+  for (int h = 0; h < static_cast<int>(atlas.base.twins.size()); ++h) {
+    if (atlas.base.twins[h] >= 0) continue;
+    chain.clear();
+    int v = atlas.base.vertices[atlas.base.faces[h / 3][h % 3]];
+    do {
+      v = halfedges.to(halfedges.outgoing[v]);
+      chain.push_back(v);
+    } while (atlas.corner[v] < 0);
+    visit(h, chain);
+  }
 }
 
 }  // namespace
 
-int solve_global(Atlas& atlas, const std::vector<std::array<double, 2>>& weights, double held_radius) {
+std::vector<Complex> solve_global(const Atlas& atlas, const EdgeWeights& weights, const std::vector<char>& solved) {
   const Surface& surface = *atlas.surface;
   const int count = surface.mesh.vertex_count();
   std::vector<int> row(count, -1);
   int unknowns = 0;
   for (int v = 0; v < count; ++v)
-    if (atlas.patch[v] >= 0 && atlas.corner[v] < 0 && !surface.halfedges.boundary_vertex(v) &&
-        corner_distance(atlas.position[v]) >= held_radius)
-      row[v] = unknowns++;
+    if (solved[v]) row[v] = unknowns++;
+  if (unknowns == 0) return atlas.position;
 
   std::vector<Eigen::Triplet<Complex>> entries;
   entries.reserve(unknowns * 7);
@@ -63,43 +73,46 @@ int solve_global(Atlas& atlas, const std::vector<std::array<double, 2>>& weights
   ComplexMatrix matrix(unknowns, unknowns);
   matrix.setFromTriplets(entries.begin(), entries.end());
   const ComplexVector solution = solve_sparse(matrix, right);
+  std::vector<Complex> position = atlas.position;
   for (int v = 0; v < count; ++v)
-    if (row[v] >= 0) atlas.position[v] = solution[row[v]];
-  int outside = 0;
-  for (int v = 0; v < count; ++v)
-    if (row[v] >= 0) outside += !atlas.reassign(v);
-  return outside;
+    if (row[v] >= 0) position[v] = solution[row[v]];
+  return position;
 }
 
-void place_boundary(Atlas& atlas) {
-  const Surface& surface = *atlas.surface;
-  const auto& positions = surface.mesh.positions;
-  for (int h = 0; h < static_cast<int>(atlas.base.twins.size()); ++h) {
-    if (atlas.base.twins[h] >= 0) continue;
-    const int chart = h / 3;
+std::vector<char> interior_vertices(const Atlas& atlas) {
+  std::vector<char> interior(atlas.patch.size());
+  for (std::size_t v = 0; v < interior.size(); ++v)
+    interior[v] = atlas.patch[v] >= 0 && atlas.corner[v] < 0 &&
+                  !atlas.surface->halfedges.boundary_vertex(static_cast<int>(v));
+  return interior;
+}
+
+void seat_boundary(Atlas& atlas) {
+  for_each_boundary_edge(atlas, [&](int h, const std::vector<int>& chain) {
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) move_to_boundary_chart(atlas, chain[i], h);
+  });
+}
+
+std::vector<Complex> boundary_by_arc_length(const Atlas& atlas) {
+  std::vector<Complex> position = atlas.position;
+  const auto& points = atlas.surface->mesh.positions;
+  for_each_boundary_edge(atlas, [&](int h, const std::vector<int>& chain) {
     const Complex from = kChartCorners[h % 3].value(), to = kChartCorners[(h % 3 + 1) % 3].value();
-    // The chain of surface vertices from this corner to the next one along the boundary.
-    std::vector<int> chain;
-    std::vector<double> length{0.0};
-    int v = atlas.base.vertices[atlas.base.faces[chart][h % 3]];
-    do {
-      const int out = surface.halfedges.outgoing[v];
-      const int next = surface.halfedges.to(out);
-      length.push_back(length.back() + (positions[next] - positions[v]).norm());
-      chain.push_back(next);
-      v = next;
-    } while (atlas.corner[v] < 0);
+    std::vector<double> length;
+    int before = atlas.base.vertices[atlas.base.faces[h / 3][h % 3]];
+    for (int v : chain) {
+      length.push_back((length.empty() ? 0.0 : length.back()) + (points[v] - points[before]).norm());
+      before = v;
+    }
     const double total = length.back();
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-      const int w = chain[i];
       // Equal spacing where the chain has no length keeps the order strict.
       const double even = double(i + 1) / double(chain.size());
-      const double s = total > 0.0 ? (1.0 - 1e-6) * length[i + 1] / total + 1e-6 * even : even;
-      const Complex target = from + s * (to - from);
-      move_to_boundary_chart(atlas, w, h);
-      atlas.position[w] = target;
+      const double s = total > 0.0 ? (1.0 - 1e-6) * length[i] / total + 1e-6 * even : even;
+      position[chain[i]] = from + s * (to - from);
     }
-  }
+  });
+  return position;
 }
 
 }  // namespace gsp

@@ -51,9 +51,7 @@ bool Pricer::flat_of(int vertex, Complex& flat) const {
   }
   for (std::size_t k = 0; k < star_.triangles.size(); ++k) {
     if (star_.triangles[k] != at.triangle) continue;
-    const int m = complex_.corner_index(at.triangle, star_.center);
-    const double weight[3] = {1.0 - at.weight1 - at.weight2, at.weight1, at.weight2};
-    flat = weight[(m + 1) % 3] * ring_[k] + weight[(m + 2) % 3] * ring_[(k + 1) % n];
+    flat = flat_in_star(complex_, star_, ring_, static_cast<int>(k), at);
     return true;
   }
   return false;

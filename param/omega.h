@@ -14,6 +14,14 @@ struct Location {
   double weight2 = 0.0; ///< and of corner 2
 };
 
+/// Where a point of the star's triangle k lies in the plane of the flattened ring.
+inline Complex flat_in_star(const TriangleComplex& complex, const Star& star, const std::vector<Complex>& ring, int k,
+                            const Location& at) {
+  const int m = complex.corner_index(at.triangle, star.center);
+  const double weight[3] = {1.0 - at.weight1 - at.weight2, at.weight1, at.weight2};
+  return weight[(m + 1) % 3] * ring[k] + weight[(m + 2) % 3] * ring[(k + 1) % star.size()];
+}
+
 /// What removing a vertex would cost and how its hole would be filled.
 struct Candidate {
   bool feasible = false;
@@ -36,11 +44,8 @@ class Pricer {
 
   void price(int vertex, Candidate& candidate);
 
-  /// Star and flattened ring of the vertex priced last.
+  /// Star of the vertex priced last.
   const Star& star() const { return star_; }
-  const std::vector<Complex>& ring() const { return ring_; }
-  /// Position of a point of the star in the flattened plane.
-  Complex flat_position(int vertex) const;
 
  private:
   struct Sample {
@@ -56,6 +61,7 @@ class Pricer {
     double area = 0.0, sigma = 1.0, delta = 1.0, triangle_area = 0.0;
   };
 
+  Complex flat_position(int vertex) const;
   void collect_samples();
   void add_sample(int vertex, double weight);
   bool flat_of(int vertex, Complex& flat) const;

@@ -1,8 +1,11 @@
 #include "param/parameterize.h"
 
+#include <algorithm>
+#include <cmath>
 #include <iomanip>
-#include <optional>
 #include <sstream>
+
+#include <Eigen/Geometry>
 
 #include "mesh/atomic_file.h"
 #include "mesh/topology.h"
@@ -13,21 +16,19 @@
 #include "param/relax_corners.h"
 #include "param/repair.h"
 #include "param/simplify.h"
+#include "param/smooth.h"
 #include "param/stretch.h"
+#include "param/valid_map.h"
 #include "param/weights.h"
 
 namespace gsp {
 
 namespace {
 
-/// How solving and relaxing alternate; radii in base edges, relaxation below 1/2 so that regions never meet.
-struct Schedule {
-  double relaxation_radius;
-  double held_radius;  ///< see solve_global
-};
-
-/// The paper's own first; where its solution cannot be untangled, the vertices beside the corners are held more and more.
-constexpr Schedule kSchedules[] = {{0.45, 0.0}, {0.45, 0.2}, {0.33, 0.1}, {0.33, 0.2}, {0.25, 0.1}, {0.25, 0.2}};
+constexpr double kRelaxationRadius = 0.45;  // in base edges; below 1/2 regions never meet
+constexpr int kMostRefinements = 4;         // of the surface around folds that do not come free
+constexpr int kAutomaticShare = 64;         // vertices per base vertex, of which the automatic stop falls short or not
+constexpr double kLongestEdge = 0.25;       // of the edge of an equilateral patch of mean area
 
 void check_options(const ParameterizeOptions& options) {
   if (options.base_vertices != 0 && options.base_vertices < 4)
@@ -48,71 +49,94 @@ std::vector<std::string> provenance(const ParameterizeOptions& options, Method m
           line("mu", options.mu),                      line("relaxations", options.relaxations)};
 }
 
-void refine_for_map(Atlas& atlas, Progress& progress) {
-  const int added = refine_at_corners(atlas);
-  if (added > 0) progress.note(std::to_string(added) + " vertices were added beside patch corners");
+[[noreturn]] void give_up(const Folds& folds) {
+  const std::string counts = std::to_string(folds.faces.size()) + " faces stay folded in their chart and " +
+                             std::to_string(folds.vertices.size()) + " vertices wrongly wound";
+  if (folds.faces.empty()) throw Error(Cause::InvalidMap, counts, Element::Vertex, folds.vertices.front());
+  throw Error(Cause::InvalidMap, counts, Element::Face, folds.faces.front());
 }
 
-/// Alternates global solves and corner relaxation (§3.3, steps 2 to 4) and keeps the round of least stretch: relaxation
-/// removes folds and shear, but carried on it drives the corners toward a conformal map, which starves long limbs.
-void solve_and_relax(Atlas& atlas, const Schedule& schedule, const ParameterizeOptions& options,
-                     ParameterizeResult& result, Progress& progress) {
-  place_boundary(atlas);
+/// Splits the edges of all faces that touch a fold.
+void refine_folds(Atlas& atlas, const Folds& folds) {
+  const Surface& surface = *atlas.surface;
+  std::vector<int> vertices = folds.vertices;
+  for (int f : folds.faces) vertices.insert(vertices.end(), surface.mesh.faces[f].begin(), surface.mesh.faces[f].end());
+  std::vector<int> edges;
+  for (int v : vertices) {
+    const int start = surface.halfedges.outgoing[v];
+    int h = start;
+    do {
+      for (int k = 0; k < 3; ++k) edges.push_back(surface.edge_of[h - h % 3 + k]);
+      h = surface.halfedges.rotate_ccw(h);
+    } while (h >= 0 && h != start);
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  split_edges(atlas, edges);
+}
+
+/// The initial map without its folds. Throws Error(InvalidMap) where it keeps some.
+Atlas injective_start(const SimplifyResult& simplified, Progress& progress) {
+  Atlas atlas = unfolded_map(simplified.atlas.surface, simplified.removals, progress);
+  refine_at_corners(atlas);
+  seat_boundary(atlas);
+  repair_folds(atlas, progress);
+  Folds folds = find_folds(atlas);
+  if (getenv("VM")) printf("start: %zu %zu\n", folds.faces.size(), folds.vertices.size());
+  for (int i = 0; i < kMostRefinements && !folds.none(); ++i) {
+    refine_folds(atlas, folds);
+    repair_folds(atlas, progress);
+    folds = find_folds(atlas);
+    if (getenv("VM")) printf("refined start: %zu %zu\n", folds.faces.size(), folds.vertices.size());
+  }
+  if (!folds.none()) give_up(folds);
+  const int added = atlas.surface->mesh.vertex_count() - simplified.atlas.surface->mesh.vertex_count();
+  if (added > 0) progress.note(std::to_string(added) + " vertices were added where the map needs more freedom");
+  return atlas;
+}
+
+/// The paper's method (§3.3, steps 2 to 4) on maps free of folds: alternates corner relaxation and global solves and keeps
+/// the round of least stretch, since carried on they drive the corners toward a conformal map, which starves long limbs.
+Atlas smooth_map(const SimplifyResult& simplified, const ParameterizeOptions& options, ParameterizeResult& result,
+                 Progress& progress) {
+  result.flips_before_repair = static_cast<int>(find_folds(simplified.atlas).faces.size());
+  Atlas atlas = injective_start(simplified, progress);
   const auto weights = mean_value_weights(*atlas.surface);
+  const std::vector<int> corners = atlas.base.vertices;
   Atlas best;
   double best_stretch = 0.0;
   for (int round = 0;; ++round) {
     progress.report("solve and relax", double(round) / (options.relaxations + 1));
-    const int moved = round == 0 && options.relaxations == 0 ? 0 : relax_corners(atlas, weights, schedule.relaxation_radius);
-    solve_global(atlas, weights, options.relaxations == 0 ? 0.0 : schedule.held_radius);
+    const int moved = options.relaxations == 0 ? 0 : relax_corners(atlas, weights, kRelaxationRadius);
+    const int held = solve_without_folds(atlas, weights, progress);
     const double stretch = l2_stretch(atlas);
+    if (getenv("VM")) printf("round %d: moved %d held %d stretch %.4f\n", round, moved, held, stretch);
     if (round == 0 || stretch < best_stretch) {
       best = atlas;
       best_stretch = stretch;
       result.relaxation_rounds = round;
+      result.held_vertices = held;
     }
     if (round >= options.relaxations || moved == 0) break;
   }
-  atlas = std::move(best);
+  for (int b = 0; b < best.base.vertex_count(); ++b) result.corners_moved += best.base.vertices[b] != corners[b];
+  return best;
 }
 
-/// Smallest regions first, so that as little as possible of the smooth solution is replaced.
-void untangle(Atlas& atlas, Progress& progress) {
-  progress.report("untangle", 0.0);
-  const auto weights = mean_value_weights(*atlas.surface);
-  for (double radius : {0.08, 0.12, 0.18, 0.27, 0.4}) settle_corners(atlas, weights, radius);
-  repair_folds(atlas, weights, progress);
+/// Edge of the equilateral triangle as large as a patch on average, for so many base vertices.
+double patch_edge(const Mesh& mesh, int base_vertices) {
+  double area = 0.0;
+  for (const Triangle& t : mesh.faces)
+    area += 0.5 * (mesh.positions[t[1]] - mesh.positions[t[0]]).cross(mesh.positions[t[2]] - mesh.positions[t[0]]).norm();
+  const double patches = 2.0 * std::max(base_vertices > 0 ? base_vertices : mesh.vertex_count() / kAutomaticShare, 4);
+  return std::sqrt(area / patches / kChartArea);
 }
 
-/// The paper's method with the repair: goes through the schedules until one gives a valid map.
-/// Throws the first schedule's Error(InvalidMap) where none does.
-Atlas smooth_map(const Atlas& initial, const ParameterizeOptions& options, ParameterizeResult& result,
-                 Progress& progress) {
-  std::optional<Error> first_failure;
-  for (const Schedule& schedule : kSchedules) {
-    Atlas atlas = initial;
-    try {
-      refine_for_map(atlas, progress);
-      solve_and_relax(atlas, schedule, options, result, progress);
-      refine_for_map(atlas, progress);
-      result.flips_before_repair = static_cast<int>(find_folds(atlas).faces.size());
-      untangle(atlas, progress);
-      for (int b = 0; b < atlas.base.vertex_count(); ++b)
-        result.corners_moved += atlas.base.vertices[b] != initial.base.vertices[b];
-      return atlas;
-    } catch (const Error& error) {
-      if (error.cause() != Cause::InvalidMap) throw;
-      progress.note(std::string(error.what()) + "; trying the next schedule");
-      if (!first_failure) first_failure = error;
-    }
-  }
-  throw *first_failure;
-}
-
-ParameterizeResult finish(Atlas atlas, Method method, const ParameterizeOptions& options, Progress& progress) {
+ParameterizeResult finish(const SimplifyResult& simplified, Method method, const ParameterizeOptions& options,
+                          Progress& progress) {
   ParameterizeResult result;
+  Atlas atlas = method == Method::Gsp ? smooth_map(simplified, options, result, progress) : simplified.atlas;
   if (method == Method::MapsSmoothed) smooth_by_loop(atlas, progress);
-  if (method == Method::Gsp) atlas = smooth_map(atlas, options, result, progress);
   result.map = atlas.finish(provenance(options, method, atlas));
   if (method == Method::Gsp) {
     const MapCheck check = check_map(result.map);
@@ -143,8 +167,10 @@ std::vector<ParameterizeResult> parameterize_all(const Mesh& mesh, const std::ve
   check_options(options);
   require_parameterizable(mesh);
   Mesh refined = mesh;
-  const int added = split_boundary_chords(refined);
+  int added = split_boundary_chords(refined);
   if (added > 0) progress.note(std::to_string(added) + " interior edges between boundary vertices were split");
+  added = split_long_edges(refined, kLongestEdge * patch_edge(refined, options.base_vertices));
+  if (added > 0) progress.note(std::to_string(added) + " vertices were added on edges that are long for the patches");
   SimplifyResult simplified = simplify(std::make_shared<const Surface>(std::move(refined)), options, progress);
   if (simplified.atlas.base.vertex_count() > options.base_vertices && options.base_vertices > 0)
     progress.note("no further vertex can be removed: the base has " +
@@ -152,7 +178,7 @@ std::vector<ParameterizeResult> parameterize_all(const Mesh& mesh, const std::ve
                   std::to_string(options.base_vertices));
   std::vector<ParameterizeResult> results;
   for (Method method : methods) {
-    results.push_back(finish(simplified.atlas, method, options, progress));
+    results.push_back(finish(simplified, method, options, progress));
     results.back().omega = simplified.omega;
   }
   return results;

@@ -45,6 +45,7 @@ struct ParameterizeResult {
   int flips_before_repair = 0;
   int relaxation_rounds = 0;
   int corners_moved = 0;
+  int held_vertices = 0;  ///< kept back from the smooth solution, which would be folded there
 };
 
 /// Computes a globally smooth parameterization of a manifold surface, or a baseline. For Method::Gsp the result is

@@ -9,7 +9,7 @@ namespace gsp {
 namespace {
 
 /// Largest mean angle of the faces around a corner before its link is split: the limit is 3 sectors, 180°.
-constexpr double kMostSectorsPerFace = 2.3;
+constexpr double kMostSectorsPerFace = 1.25;
 
 /// The lattice motion that takes one pair of distinct points to another.
 Transition motion_of(Complex from0, Complex from1, Complex to0, Complex to1) {

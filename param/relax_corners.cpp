@@ -15,8 +15,7 @@ namespace gsp {
 namespace {
 
 constexpr double kSector = std::numbers::pi / 3.0;
-constexpr int kMostRings = 24;      // of `unwind`
-constexpr double kRoundRim = 0.18;  // radius of a rim that is spread along a circle, in base edges
+constexpr double kShrink[] = {1.0, 0.6, 0.36};  // of the radius, where a larger region would fold
 
 /// One vertex of the region around a corner, seen from the corner.
 struct DiscVertex {
@@ -48,7 +47,7 @@ struct Move {
 
 class Relaxation {
  public:
-  Relaxation(const Atlas& atlas, const std::vector<std::array<double, 2>>& weights, double radius, int base_vertex)
+  Relaxation(const Atlas& atlas, const EdgeWeights& weights, double radius, int base_vertex)
       : atlas_(atlas),
         weights_(weights),
         radius_(radius),
@@ -72,34 +71,10 @@ class Relaxation {
     return closed(move);
   }
 
-  /// The same for the vertices within so many rings of the corner, whatever their distance in the charts: a corner that lost
-  /// a full turn to a vertex near by gets it back once the rings reach round that vertex. Where the rim is no round curve it
-  /// is spread along a circle by arc length.
-  bool unwind(int rings, bool round_rim, Move& move) {
-    if (!gather_rings(rings) || !lift() || (round_rim && !spread_rim()) || !solve() || !embedded()) return false;
-    const int nearest = fan_.boundary ? 0 : nearest_to_center();
-    if (!draw_to_center(nearest) || !embedded() || !upright_in_plane(nearest)) return false;
-    move.new_corner = vertices_[nearest].vertex;
-    place(nearest, move);
-    return closed(move);
-  }
-
-  /// Whether the region holds one of the marked vertices.
-  bool holds(const std::vector<char>& marked) {
-    gather();
-    const bool found = std::any_of(vertices_.begin(), vertices_.end(),
-                                   [&](const DiscVertex& v) { return v.inside && marked[v.vertex]; });
-    vertices_.clear();
-    index_.clear();
-    return found;
-  }
-
  private:
   bool collect();
   void gather();
-  bool gather_rings(int rings);
   bool lift();
-  bool spread_rim();
   void straighten_border();
   bool solve();
   bool embedded() const;
@@ -115,7 +90,7 @@ class Relaxation {
   }
 
   const Atlas& atlas_;
-  const std::vector<std::array<double, 2>>& weights_;
+  const EdgeWeights& weights_;
   const double radius_;
   const BaseFan& fan_;
   const int corner_;
@@ -145,67 +120,6 @@ void Relaxation::gather() {
                  std::abs(fan_.develop(s).apply(atlas_.position[w])) < radius_);
     });
   }
-}
-
-/// False where the rings meet another corner, or a boundary and the corner is inside.
-bool Relaxation::gather_rings(int rings) {
-  vertices_.assign(1, {corner_, !fan_.boundary, {}, 0.0, 0.0});
-  index_ = {{corner_, 0}};
-  std::vector<int> ring{0};
-  bool good = true;
-  for (std::size_t i = 0; i < vertices_.size() && good; ++i) {
-    if (ring[i] == rings) continue;
-    surface().for_each_neighbour(vertices_[i].vertex, [&](int w, int, bool) {
-      if (!index_.emplace(w, static_cast<int>(vertices_.size())).second) return;
-      ring.push_back(ring[i] + 1);
-      const bool near = ring.back() < rings, border = surface().halfedges.boundary_vertex(w);
-      good = good && !(near && (atlas_.corner[w] >= 0 || (border && !fan_.boundary)));
-      vertices_.push_back({w, near && !border, {}, 0.0, 0.0});
-    });
-  }
-  return good;
-}
-
-/// Places the rim on a circle by arc length, turned to agree with where it lies; false where the rim is no simple loop.
-bool Relaxation::spread_rim() {
-  if (fan_.boundary) return false;
-  std::unordered_map<int, int> next;
-  int rim_size = 0;
-  for (const DiscVertex& v : vertices_) {
-    if (!v.inside) {
-      ++rim_size;
-      continue;
-    }
-    const int start = surface().halfedges.outgoing[v.vertex];
-    int h = start;
-    do {
-      const int link = Halfedges::next(h);
-      const int a = index_.at(surface().halfedges.from(link)), b = index_.at(surface().halfedges.to(link));
-      if (!vertices_[a].inside && !vertices_[b].inside && !next.emplace(a, b).second) return false;
-      h = surface().halfedges.rotate_ccw(h);
-    } while (h != start);
-  }
-  if (next.empty()) return false;
-  std::vector<int> loop{next.begin()->first};
-  for (const auto& [a, b] : next) loop[0] = std::min(loop[0], a);
-  std::vector<double> length{0.0};
-  const auto& positions = surface().mesh.positions;
-  do {
-    const auto at = next.find(loop.back());
-    if (at == next.end() || static_cast<int>(loop.size()) > rim_size) return false;
-    length.push_back(length.back() + (positions[vertices_[at->second].vertex] - positions[vertices_[loop.back()].vertex]).norm());
-    loop.push_back(at->second);
-  } while (loop.back() != loop.front());
-  loop.pop_back();
-  if (static_cast<int>(loop.size()) != rim_size || !(length.back() > 0.0)) return false;
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  Complex agreement = 0.0;
-  for (std::size_t i = 0; i < loop.size(); ++i)
-    agreement += std::polar(1.0, vertices_[loop[i]].angle * power_ - kTurn * length[i] / length.back());
-  const double start = std::arg(agreement), rim_radius = std::pow(radius_, power_);
-  for (std::size_t i = 0; i < loop.size(); ++i)
-    vertices_[loop[i]].disc = std::polar(rim_radius, start + kTurn * length[i] / length.back());
-  return true;
 }
 
 /// Develops the region about the corner. The map may be folded next to the corner, so the plane is continued from the
@@ -464,72 +378,58 @@ bool Relaxation::closed(const Move& move) const {
   return true;
 }
 
-std::vector<char> folded_vertices(const Atlas& atlas) {
-  const Folds folds = find_folds(atlas);
-  std::vector<char> marked(atlas.patch.size(), 0);
-  for (int f : folds.faces)
-    for (int v : atlas.surface->mesh.faces[f]) marked[v] = 1;
-  for (int v : folds.vertices) marked[v] = 1;
-  return marked;
+/// Makes the move; a second call with the same values takes it back.
+void exchange(Atlas& atlas, Move& move) {
+  int& corner = atlas.base.vertices[move.base_vertex];
+  atlas.corner[corner] = -1;
+  std::swap(corner, move.new_corner);
+  atlas.corner[corner] = move.base_vertex;
+  for (NewPlace& place : move.places) {
+    std::swap(atlas.patch[place.vertex], place.chart);
+    std::swap(atlas.position[place.vertex], place.position);
+  }
+  for (NewTransition& t : move.transitions) std::swap(atlas.transition[t.edge], t.transition);
 }
 
-/// Computes every corner's move in parallel, then makes those that do not overlap, in the order of the base vertices.
-template <class Compute>
-int move_corners(Atlas& atlas, Compute&& compute) {
-  std::vector<Move> moves(atlas.fans.size());
-  parallel_for(moves.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b)
-      if (compute(static_cast<int>(b), moves[b])) moves[b].base_vertex = static_cast<int>(b);
-  });
-  int moved = 0;
-  std::vector<char> inside(atlas.surface->mesh.positions.size(), 0), rim(inside);
-  for (const Move& move : moves) {
-    if (move.base_vertex < 0) continue;
-    // Where edges are long two regions can overlap: the later corner waits for the next round.
-    const bool overlap =
-        std::any_of(move.rim.begin(), move.rim.end(), [&](int v) { return inside[v]; }) ||
-        std::any_of(move.places.begin(), move.places.end(),
-                    [&](const NewPlace& place) { return inside[place.vertex] || rim[place.vertex]; });
-    if (overlap) continue;
-    for (int v : move.rim) rim[v] = 1;
-    for (const NewPlace& place : move.places) inside[place.vertex] = 1;
-    ++moved;
-    atlas.corner[atlas.base.vertices[move.base_vertex]] = -1;
-    atlas.base.vertices[move.base_vertex] = move.new_corner;
-    atlas.corner[move.new_corner] = move.base_vertex;
-    for (const NewPlace& place : move.places) {
-      atlas.patch[place.vertex] = place.chart;
-      atlas.position[place.vertex] = place.position;
-    }
-    for (const NewTransition& t : move.transitions) atlas.transition[t.edge] = t.transition;
-  }
-  return moved;
+bool free_of_folds(const Atlas& atlas, const Move& move) {
+  for (const NewPlace& place : move.places)
+    if (local_map(atlas, place.vertex) != LocalMap::Injective) return false;
+  return std::all_of(move.rim.begin(), move.rim.end(), [&](int v) { return local_map(atlas, v) == LocalMap::Injective; });
 }
 
 }  // namespace
 
-int relax_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weights, double radius) {
-  return move_corners(atlas, [&](int b, Move& move) { return Relaxation(atlas, weights, radius, b).run(move); });
-}
-
-int unwind_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weights) {
-  return move_corners(atlas, [&](int b, Move& move) {
-    if (wound_rightly(atlas, atlas.base.vertices[b])) return false;
-    for (int rings = 2; rings <= kMostRings; ++rings)
-      for (bool round_rim : {false, true}) {
-        move = {};
-        if (Relaxation(atlas, weights, kRoundRim, b).unwind(rings, round_rim, move)) return true;
+int relax_corners(Atlas& atlas, const EdgeWeights& weights, double radius) {
+  int moved = 0;
+  std::vector<char> done(atlas.fans.size(), 0);
+  std::vector<char> inside(atlas.surface->mesh.positions.size(), 0), rim(inside);
+  for (double shrink : kShrink) {
+    std::vector<Move> moves(atlas.fans.size());
+    parallel_for(moves.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t b = begin; b < end; ++b)
+        if (!done[b] && Relaxation(atlas, weights, shrink * radius, static_cast<int>(b)).run(moves[b]))
+          moves[b].base_vertex = static_cast<int>(b);
+    });
+    for (Move& move : moves) {
+      if (move.base_vertex < 0) continue;
+      // Where edges are long two regions can overlap: the later corner waits for the next round.
+      const bool overlap =
+          std::any_of(move.rim.begin(), move.rim.end(), [&](int v) { return inside[v]; }) ||
+          std::any_of(move.places.begin(), move.places.end(),
+                      [&](const NewPlace& place) { return inside[place.vertex] || rim[place.vertex]; });
+      if (overlap) continue;
+      exchange(atlas, move);
+      if (!free_of_folds(atlas, move)) {
+        exchange(atlas, move);
+        continue;
       }
-    return false;
-  });
-}
-
-int settle_corners(Atlas& atlas, const std::vector<std::array<double, 2>>& weights, double radius) {
-  const std::vector<char> marked = folded_vertices(atlas);
-  return move_corners(atlas, [&](int b, Move& move) {
-    Relaxation relaxation(atlas, weights, radius, b);
-    return relaxation.holds(marked) && relaxation.run(move);
-  });
+      for (int v : move.rim) rim[v] = 1;
+      for (const NewPlace& place : move.places) inside[place.vertex] = 1;
+      done[move.base_vertex] = 1;
+      ++moved;
+    }
+  }
+  return moved;
 }
 
 }  // namespace gsp

@@ -8,7 +8,6 @@
 
 #include "mesh/error.h"
 #include "param/folds.h"
-#include "param/relax_corners.h"
 
 namespace gsp {
 
@@ -16,10 +15,10 @@ namespace {
 
 constexpr double kFlattestReference = 0.05; // height over longest side of a reference triangle
 constexpr double kAreaWeight = 0.02;        // λ
-constexpr int kRings[] = {3, 3, 3, 5, 5, 5, 8, 8, 8, 12, 12, 12, 16, 16, 16, 24, 24, 24};
-constexpr int kOuterSteps = 40;
-constexpr double kSharpening = 0.7;  // of ε, from one step to the next
-constexpr int kInnerSteps = 200;
+constexpr int kRings[] = {1, 2, 4, 8};
+constexpr int kOuterSteps = 20;
+constexpr double kSharpening = 0.5;  // of ε, from one step to the next
+constexpr int kInnerSteps = 100;
 constexpr int kPolishSteps = 30;
 
 bool positive(const std::array<Complex, 3>& z) { return upright(z[0], z[1], z[2]); }
@@ -190,32 +189,23 @@ class Disc {
 
 class Repair {
  public:
-  Repair(Atlas& atlas, const std::vector<std::array<double, 2>>& weights, Progress& progress)
-      : atlas_(atlas), surface_(*atlas.surface), weights_(weights), progress_(progress) {}
+  Repair(Atlas& atlas, Progress& progress) : atlas_(atlas), surface_(*atlas.surface), progress_(progress) {}
 
   RepairReport run() {
     RepairReport report;
     Folds folds = find_folds(atlas_);
     report.flipped_before = static_cast<int>(folds.faces.size());
-    // Small discs first and more than once: unwinding a corner opens new ways.
     for (int rings : kRings) {
-      if (folds.none()) return report;
-      if (!folds.faces.empty()) untangle_all(folds, rings, report);
-      unwind_corners(atlas_, weights_);
+      if (folds.none()) break;
+      untangle_all(folds, rings, report);
       folds = find_folds(atlas_);
     }
-    if (!folds.none()) give_up(folds);
+    std::sort(report.moved.begin(), report.moved.end());
+    report.moved.erase(std::unique(report.moved.begin(), report.moved.end()), report.moved.end());
     return report;
   }
 
  private:
-  [[noreturn]] static void give_up(const Folds& folds) {
-    const std::string counts = std::to_string(folds.faces.size()) + " faces stay folded in their chart and " +
-                               std::to_string(folds.vertices.size()) + " vertices wrongly wound";
-    if (folds.faces.empty()) throw Error(Cause::InvalidMap, counts, Element::Vertex, folds.vertices.front());
-    throw Error(Cause::InvalidMap, counts, Element::Face, folds.faces.front());
-  }
-
   bool is_free(int v) const { return atlas_.corner[v] < 0 && !surface_.halfedges.boundary_vertex(v); }
 
   void untangle_all(const Folds& folds, int rings, RepairReport& report) {
@@ -270,30 +260,34 @@ class Repair {
     std::sort(faces.begin(), faces.end());
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
     if (vertices.empty()) return;
+    std::vector<Complex> before;
+    for (int v : vertices) before.push_back(atlas_.position[v]);
     Disc disc(atlas_, vertices, faces);
-    if (!disc.untangle()) {
-      progress_.note("a disc of " + std::to_string(faces.size()) + " faces around face " + std::to_string(faces.front()) +
-                     " did not come free");
+    if (!disc.untangle()) return;
+    disc.write_back();
+    std::vector<int> touched;
+    for (int f : faces)
+      for (int v : surface_.mesh.faces[f]) touched.push_back(v);
+    std::sort(touched.begin(), touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    // Beyond the rim faces may still be folded.
+    const bool miswound = std::any_of(touched.begin(), touched.end(),
+                                      [&](int v) { return local_map(atlas_, v) == LocalMap::Miswound; });
+    if (miswound) {
+      for (std::size_t i = 0; i < vertices.size(); ++i) atlas_.position[vertices[i]] = before[i];
       return;
     }
-    disc.write_back();
     ++report.regions;
-    report.vertices_moved += static_cast<int>(vertices.size());
+    report.moved.insert(report.moved.end(), vertices.begin(), vertices.end());
   }
 
   Atlas& atlas_;
   const Surface& surface_;
-  const std::vector<std::array<double, 2>>& weights_;
   Progress& progress_;
 };
 
 }  // namespace
 
-RepairReport repair_folds(Atlas& atlas, const std::vector<std::array<double, 2>>& weights, Progress& progress) {
-  const RepairReport report = Repair(atlas, weights, progress).run();
-  for (int v = 0; v < atlas.surface->mesh.vertex_count(); ++v)
-    if (atlas.patch[v] >= 0 && atlas.corner[v] < 0 && !atlas.surface->halfedges.boundary_vertex(v)) atlas.reassign(v);
-  return report;
-}
+RepairReport repair_folds(Atlas& atlas, Progress& progress) { return Repair(atlas, progress).run(); }
 
 }  // namespace gsp

@@ -6,11 +6,13 @@
 #include "mesh/progress.h"
 #include "param/atlas.h"
 #include "param/parameterize.h"
+#include "param/shrinking_map.h"
 
 namespace gsp {
 
 struct SimplifyResult {
   Atlas atlas;                      ///< with the initial map, every edge classified
+  std::vector<Removal> removals;    ///< in order: they make the base complex again
   std::vector<OmegaRecord> omega;   ///< one record per removal, in order
 };
 

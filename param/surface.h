@@ -44,4 +44,7 @@ struct Surface {
 /// place, the further pieces come last. Returns the number of vertices added.
 int split_boundary_chords(Mesh& mesh);
 
+/// Splits edges longer than `longest` > 0 at their middles until there is none. Numbering as above.
+int split_long_edges(Mesh& mesh, double longest);
+
 }  // namespace gsp

@@ -24,7 +24,7 @@ double half_angle_tangent(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-std::vector<std::array<double, 2>> mean_value_weights(const Surface& surface) {
+EdgeWeights mean_value_weights(const Surface& surface) {
   const auto& p = surface.mesh.positions;
   std::vector<std::array<double, 2>> weights(surface.edge_count());
   parallel_for(weights.size(), 4096, [&](std::size_t begin, std::size_t end) {

@@ -1,0 +1,198 @@
+#include "param/shrinking_map.h"
+
+#include <algorithm>
+
+#include "mesh/error.h"
+#include "param/flatten.h"
+
+namespace gsp {
+
+namespace {
+
+constexpr int kLongestTrace = 4096;
+
+/// From a face around a corner to the corner's own chart.
+Transition to_home(const Atlas& atlas, int vertex, int face) {
+  if (atlas.corner[vertex] < 0) return {};
+  const BaseFan& fan = atlas.fans[atlas.corner[vertex]];
+  return fan.develop(0).inverse() * fan.develop(fan.find(face));
+}
+
+}  // namespace
+
+ShrinkingMap::ShrinkingMap(std::shared_ptr<const Surface> surface)
+    : surface_(std::move(surface)),
+      complex_(*surface_),
+      locations_(surface_->mesh.positions.size()),
+      points_(surface_->mesh.faces.size()),
+      paths_(surface_->edge_count(), complex_.slot_count()) {}
+
+void ShrinkingMap::remove(const Removal& removal) {
+  complex_.gather(removal.vertex, star_);
+  flatten_star(surface_->mesh.positions, star_, ring_);
+  paths_.begin(*surface_, star_, points_);
+  moving_.assign(1, star_.center);
+  moving_flat_.assign(1, 0.0);
+  for (std::size_t k = 0; k < star_.triangles.size(); ++k) {
+    const int slot = star_.triangles[k];
+    for (int v : points_[slot]) {
+      moving_.push_back(v);
+      moving_flat_.push_back(flat_in_star(complex_, star_, ring_, static_cast<int>(k), locations_[v]));
+    }
+    points_[slot].clear();
+  }
+  complex_.replace(star_, removal.triangles, slots_);
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    int best_triangle = 0;
+    std::array<double, 3> best{};
+    double best_smallest = -1e300;
+    for (std::size_t t = 0; t < removal.triangles.size(); ++t) {
+      const RingTriangle& corners = removal.triangles[t];
+      const auto w = barycentric(moving_flat_[i], ring_[corners[0]], ring_[corners[1]], ring_[corners[2]]);
+      const double smallest = std::min({w[0], w[1], w[2]});
+      if (smallest <= best_smallest) continue;
+      best_smallest = smallest;
+      best_triangle = static_cast<int>(t);
+      best = w;
+    }
+    locations_[moving_[i]] = {slots_[best_triangle], best[1], best[2]};
+    points_[slots_[best_triangle]].push_back(moving_[i]);
+  }
+  paths_.finish(*surface_, complex_, star_, removal.triangles, slots_, locations_);
+}
+
+ShrinkingMap::Numbering ShrinkingMap::number_triangles() const {
+  Numbering numbering;
+  numbering.face_of.assign(complex_.slot_count(), -1);
+  for (int t = 0; t < complex_.slot_count(); ++t) {
+    if (!complex_.alive(t)) continue;
+    numbering.face_of[t] = static_cast<int>(numbering.slot_of.size());
+    numbering.slot_of.push_back(t);
+  }
+  return numbering;
+}
+
+Transition ShrinkingMap::edge_transition(const Atlas& atlas, const Numbering& numbering, int edge) const {
+  const int h = surface_->edge_halfedge[edge];
+  const int start = surface_->halfedges.from(h), end = surface_->halfedges.to(h);
+  const std::vector<int>& path = paths_.path(edge);
+  int first = -1, last;
+  Transition through;
+  if (path.empty()) {
+    if (atlas.corner[start] < 0) {
+      first = atlas.patch[start];
+    } else if (atlas.corner[end] < 0) {
+      first = atlas.patch[end];
+    } else {  // along a base edge: any face that has both corners
+      for (const BaseFan::Sector& s : atlas.fans[atlas.corner[start]].sectors)
+        for (int k = 0; k < 3; ++k)
+          if (atlas.base.faces[s.face][k] == atlas.corner[end]) first = s.face;
+      if (first < 0) throw Error(Cause::Internal, "an edge between two corners is not classified", Element::Edge, edge);
+    }
+    last = first;
+  } else {
+    first = numbering.face_of[path.front()];
+    last = numbering.face_of[path.back()];
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      const int k = complex_.edge_towards(path[i + 1], path[i]);
+      through = through * atlas.base.across(3 * numbering.face_of[path[i + 1]] + k);
+    }
+  }
+  return to_home(atlas, start, first) * through * to_home(atlas, end, last).inverse();
+}
+
+Atlas ShrinkingMap::atlas() const {
+  Atlas atlas;
+  atlas.surface = surface_;
+  const Numbering numbering = number_triangles();
+  const int count = surface_->mesh.vertex_count();
+  atlas.corner.assign(count, -1);
+  for (int v = 0; v < count; ++v) {
+    if (surface_->halfedges.outgoing[v] < 0 || locations_[v].triangle >= 0) continue;
+    atlas.corner[v] = atlas.base.vertex_count();
+    atlas.base.vertices.push_back(v);
+  }
+  for (int t : numbering.slot_of) {
+    const Triangle& c = complex_.corners(t);
+    atlas.base.faces.push_back({atlas.corner[c[0]], atlas.corner[c[1]], atlas.corner[c[2]]});
+  }
+  atlas.base.connect();
+  atlas.fans = base_fans(atlas.base);
+  atlas.patch.assign(count, -1);
+  atlas.position.assign(count, 0.0);
+  for (int v = 0; v < count; ++v) {
+    if (surface_->halfedges.outgoing[v] < 0) continue;
+    if (atlas.corner[v] >= 0) {
+      const BaseFan::Sector& home = atlas.fans[atlas.corner[v]].sectors.front();
+      atlas.patch[v] = home.face;
+      atlas.position[v] = kChartCorners[home.corner].value();
+    } else {
+      const Location& at = locations_[v];
+      atlas.patch[v] = numbering.face_of[at.triangle];
+      atlas.position[v] = chart_position(1.0 - at.weight1 - at.weight2, at.weight1);
+    }
+  }
+  atlas.transition.resize(surface_->edge_count());
+  for (int e = 0; e < surface_->edge_count(); ++e) atlas.transition[e] = edge_transition(atlas, numbering, e);
+  return atlas;
+}
+
+/// The triangles that the edge's straight image crosses, from its start to its end; of one that starts or ends at a corner
+/// without the turn about it. False where it does not arrive where the atlas says.
+bool ShrinkingMap::trace(const Atlas& atlas, const Numbering& numbering, int edge, std::vector<int>& path) const {
+  const int h = surface_->edge_halfedge[edge];
+  const int start = surface_->halfedges.from(h), end = surface_->halfedges.to(h);
+  const bool reversed = atlas.corner[start] >= 0;
+  const int from = reversed ? end : start, to = reversed ? start : end;
+  const Transition expected = atlas.towards(edge, !reversed);
+  Transition here;  // from the walk's present chart to that of `from`
+  int chart = atlas.patch[from];
+  const Complex a = atlas.position[from], b = expected.apply(atlas.position[to]);
+  path.assign(1, numbering.slot_of[chart]);
+  int entered = -1;
+  const auto arrived = [&] {
+    if (atlas.corner[to] < 0) return chart == atlas.patch[to] && here == expected;
+    const BaseFan& fan = atlas.fans[atlas.corner[to]];
+    const int s = fan.find(chart);
+    return s >= 0 && std::abs(here.apply(kChartCorners[fan.sectors[s].corner].value()) - b) < 1e-9;
+  };
+  while (!arrived()) {
+    if (path.size() > kLongestTrace) return false;
+    // The edge by which the segment leaves: the one whose ends lie on either side of it, ahead.
+    int leave = -1;
+    for (int k = 0; k < 3; ++k) {
+      if (3 * chart + k == entered) continue;
+      const Complex p = here.apply(kChartCorners[k].value()), q = here.apply(kChartCorners[(k + 1) % 3].value());
+      if (cross(b - a, p - a) <= 0.0 && cross(b - a, q - a) > 0.0) leave = k;
+    }
+    if (leave < 0 || atlas.base.twins[3 * chart + leave] < 0) return false;
+    entered = atlas.base.twins[3 * chart + leave];
+    here = here * atlas.base.across(3 * chart + leave).inverse();
+    chart = entered / 3;
+    path.push_back(numbering.slot_of[chart]);
+  }
+  if (reversed) std::reverse(path.begin(), path.end());
+  return true;
+}
+
+bool ShrinkingMap::load(const Atlas& atlas, const std::vector<int>& moved) {
+  const Numbering numbering = number_triangles();
+  std::vector<int> edges;
+  for (int v : moved) surface_->for_each_neighbour(v, [&](int, int edge, bool) { edges.push_back(edge); });
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  std::vector<std::vector<int>> paths(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if (!trace(atlas, numbering, edges[i], paths[i])) return false;
+  for (std::size_t i = 0; i < edges.size(); ++i) paths_.set(edges[i], paths[i]);
+  for (int v : moved) {
+    std::vector<int>& left = points_[locations_[v].triangle];
+    left.erase(std::find(left.begin(), left.end(), v));
+    const auto w = chart_barycentric(atlas.position[v]);
+    locations_[v] = {numbering.slot_of[atlas.patch[v]], w[1], w[2]};
+    points_[locations_[v].triangle].push_back(v);
+  }
+  return true;
+}
+
+}  // namespace gsp

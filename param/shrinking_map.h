@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "param/atlas.h"
+#include "param/edge_paths.h"
+#include "param/omega.h"
+#include "param/triangle_complex.h"
+
+namespace gsp {
+
+/// A vertex removal of §3.1 and how its hole was filled.
+struct Removal {
+  int vertex;
+  std::vector<RingTriangle> triangles;
+};
+
+/// The surface's map onto the shrinking complex T^i of §3.1: a homeomorphism up to the straightening of edges. Can be copied,
+/// so that removals can be tried.
+class ShrinkingMap {
+ public:
+  explicit ShrinkingMap(std::shared_ptr<const Surface> surface);
+
+  const Surface& surface() const { return *surface_; }
+  const TriangleComplex& complex() const { return complex_; }
+  const std::vector<Location>& locations() const { return locations_; }
+  /// Per triangle of the complex, the surface's vertices inside it.
+  const std::vector<std::vector<int>>& points() const { return points_; }
+
+  /// Fills the hole of the removed vertex; the points of its star move to where `flatten_star` puts them.
+  void remove(const Removal& removal);
+
+  /// The map onto the present complex with every edge classified. O(V).
+  Atlas atlas() const;
+
+  /// Takes over where an atlas of the present complex has moved some vertices, beside which it must be free of folds: their
+  /// edges are then straight. Returns false, and is unchanged, where rounding leaves an edge's way in doubt.
+  bool load(const Atlas& atlas, const std::vector<int>& moved);
+
+ private:
+  struct Numbering {
+    std::vector<int> face_of;  ///< slot -> base face, -1
+    std::vector<int> slot_of;  ///< base face -> slot
+  };
+  Numbering number_triangles() const;
+  Transition edge_transition(const Atlas& atlas, const Numbering& numbering, int edge) const;
+  bool trace(const Atlas& atlas, const Numbering& numbering, int edge, std::vector<int>& path) const;
+
+  std::shared_ptr<const Surface> surface_;
+  TriangleComplex complex_;
+  std::vector<Location> locations_;
+  std::vector<std::vector<int>> points_;
+  EdgePaths paths_;
+
+  Star star_;                 // of the removal in hand
+  std::vector<Complex> ring_;
+  std::vector<int> slots_, moving_;
+  std::vector<Complex> moving_flat_;
+};
+
+}  // namespace gsp

@@ -1,0 +1,108 @@
+#include "param/smooth.h"
+
+#include <algorithm>
+
+#include "param/folds.h"
+#include "param/global_system.h"
+#include "param/repair.h"
+
+namespace gsp {
+
+namespace {
+
+constexpr int kFewRings = 4;    // held around a fold where a shorter step could still do without
+constexpr int kManyRings = 64;
+constexpr double kShortestStep = 1.0 / 16.0;
+constexpr int kMostSteps = 12;
+
+/// Distance in edges from the folds, up to `most`; -1 beyond.
+std::vector<int> rings_around(const Surface& surface, const Folds& folds, int most) {
+  std::vector<int> distance(surface.mesh.positions.size(), -1);
+  std::vector<int> reached;
+  const auto start = [&](int v) {
+    if (distance[v] >= 0) return;
+    distance[v] = 0;
+    reached.push_back(v);
+  };
+  for (int f : folds.faces)
+    for (int v : surface.mesh.faces[f]) start(v);
+  for (int v : folds.vertices) start(v);
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const int v = reached[i];
+    if (distance[v] >= most) continue;
+    surface.for_each_neighbour(v, [&](int w, int, bool) {
+      if (distance[w] >= 0) return;
+      distance[w] = distance[v] + 1;
+      reached.push_back(w);
+    });
+  }
+  return distance;
+}
+
+/// Carries a map free of folds toward a goal, without folds.
+class Approach {
+ public:
+  /// `goal`: #V positions in the charts of `atlas`, which do not change meanwhile.
+  Approach(Atlas& atlas, std::vector<Complex> goal, Progress& progress)
+      : atlas_(atlas), goal_(std::move(goal)), progress_(progress) {}
+
+  int run() {
+    double step = 1.0;
+    for (int i = 0; i < kMostSteps && step >= kShortestStep; ++i) {
+      const bool made = advance(step, kFewRings);
+      if (getenv("VM")) printf("   step %g %d held %d\n", step, made, held_);
+      if (made && step == 1.0) return held_;
+      step = made ? std::min(1.0, 2.0 * step) : 0.5 * step;
+    }
+    for (step = 1.0; step >= kShortestStep; step *= 0.5) {
+      const bool made = advance(step, kManyRings);
+      if (getenv("VM")) printf("   long step %g %d held %d\n", step, made, held_);
+      if (made) break;
+    }
+    return held_;
+  }
+
+ private:
+  /// Goes the given share of the way, all vertices but those within so many rings of a fold that cannot be untangled.
+  bool advance(double step, int most_rings) {
+    Atlas trial = atlas_;
+    std::vector<double> share(goal_.size(), step);
+    held_ = 0;
+    for (int rings = 1;; rings *= 2) {
+      for (std::size_t v = 0; v < goal_.size(); ++v)
+        trial.position[v] = atlas_.position[v] + share[v] * (goal_[v] - atlas_.position[v]);
+      repair_folds(trial, progress_);
+      const Folds folds = find_folds(trial);
+      if (folds.none()) break;
+      if (rings > most_rings) return false;
+      const std::vector<int> distance = rings_around(*atlas_.surface, folds, 3 * rings);
+      held_ = 0;
+      for (std::size_t v = 0; v < goal_.size(); ++v) {
+        if (distance[v] >= 0) share[v] *= std::clamp(0.5 * (distance[v] - rings) / rings, 0.0, 1.0);
+        held_ += share[v] == 0.0;
+      }
+    }
+    atlas_.position = std::move(trial.position);
+    return true;
+  }
+
+  Atlas& atlas_;
+  const std::vector<Complex> goal_;
+  Progress& progress_;
+  int held_ = 0;
+};
+
+}  // namespace
+
+int solve_without_folds(Atlas& atlas, const EdgeWeights& weights, Progress& progress) {
+  seat_boundary(atlas);
+  const std::vector<char> interior = interior_vertices(atlas);
+  Atlas goal = atlas;
+  goal.position = boundary_by_arc_length(atlas);
+  const int held = Approach(atlas, solve_global(goal, weights, interior), progress).run();
+  for (std::size_t v = 0; v < interior.size(); ++v)
+    if (interior[v]) atlas.reassign(static_cast<int>(v));
+  return held;
+}
+
+}  // namespace gsp

@@ -1,0 +1,36 @@
+#include "param/valid_map.h"
+
+#include <algorithm>
+
+#include "param/folds.h"
+#include "param/repair.h"
+
+namespace gsp {
+
+namespace {
+
+constexpr double kStride = 0.15;  // of the vertices left, from one station to the next
+
+}  // namespace
+
+Atlas unfolded_map(std::shared_ptr<const Surface> surface, const std::vector<Removal>& removals, Progress& progress) {
+  int left = 0;
+  for (int h : surface->halfedges.outgoing) left += h >= 0;
+  ShrinkingMap map(surface);
+  const int total = static_cast<int>(removals.size());
+  for (int done = 0;;) {
+    const int next = std::min(total, done + std::max(1, static_cast<int>(kStride * (left - done))));
+    for (; done < next; ++done) map.remove(removals[done]);
+    Atlas atlas = map.atlas();
+    const Folds before=find_folds(atlas);
+    const RepairReport repaired = repair_folds(atlas, progress);
+    for (int v : repaired.moved) atlas.reassign(v);
+    const Folds after=find_folds(atlas); bool ok=true;
+    if (done == total) return atlas;
+    ok=map.load(atlas, repaired.moved);
+    if (getenv("VM")) printf("station %d of %d: folds %zu+%zu -> %zu+%zu %d\n", done, total, before.faces.size(), before.vertices.size(), after.faces.size(), after.vertices.size(), ok);
+    progress.report("unfold", double(done) / total);
+  }
+}
+
+}  // namespace gsp
