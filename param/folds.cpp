@@ -28,20 +28,33 @@ bool upright(Complex a, Complex b, Complex c) { return chart_area(a, b, c) > kSm
 Folds find_folds(const Atlas& atlas) {
   const Surface& surface = *atlas.surface;
   Folds folds;
+  // Round a vertex inside the surface the faces cover every direction once: those that cover its chart's real axis are
+  // counted. At corners and on boundaries the angles are summed.
   std::vector<double> angle(atlas.patch.size(), 0.0);
+  std::vector<int> turns(atlas.patch.size(), 0);
   std::vector<char> beside_fold(atlas.patch.size(), 0);
+  const auto by_angle = [&](int v) { return atlas.corner[v] >= 0 || surface.halfedges.boundary_vertex(v); };
   for (int f = 0; f < surface.mesh.face_count(); ++f) {
-    const auto z = atlas.face_corners(f, atlas.face_frame(f));
+    const Atlas::FaceFrame frame = atlas.face_frame(f);
+    const auto z = atlas.face_corners(f, frame);
     const Triangle& t = surface.mesh.faces[f];
     if (!upright(z[0], z[1], z[2])) {
       folds.faces.push_back(f);
       for (int v : t) beside_fold[v] = 1;
+      continue;
     }
-    for (int k = 0; k < 3; ++k) angle[t[k]] += angle_at(z, k);
+    for (int k = 0; k < 3; ++k) {
+      if (by_angle(t[k])) {
+        angle[t[k]] += angle_at(z, k);
+        continue;
+      }
+      const Complex axis = omega_power(frame.to_chart[k].rotation);
+      turns[t[k]] += cross(z[(k + 1) % 3] - z[k], axis) >= 0.0 && cross(axis, z[(k + 2) % 3] - z[k]) > 0.0;
+    }
   }
-  for (std::size_t v = 0; v < angle.size(); ++v) {
+  for (int v = 0; v < static_cast<int>(angle.size()); ++v) {
     if (atlas.patch[v] < 0 || beside_fold[v]) continue;
-    if (!is_right_angle_sum(atlas, static_cast<int>(v), angle[v])) folds.vertices.push_back(static_cast<int>(v));
+    if (by_angle(v) ? !is_right_angle_sum(atlas, v, angle[v]) : turns[v] != 1) folds.vertices.push_back(v);
   }
   return folds;
 }

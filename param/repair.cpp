@@ -16,9 +16,9 @@ namespace {
 constexpr double kFlattestReference = 0.05; // height over longest side of a reference triangle
 constexpr double kAreaWeight = 0.02;        // λ
 constexpr int kRings[] = {1, 2, 4, 8};
-constexpr int kOuterSteps = 20;
+constexpr int kOuterSteps = 12;
 constexpr double kSharpening = 0.5;  // of ε, from one step to the next
-constexpr int kInnerSteps = 100;
+constexpr int kInnerSteps = 50;
 constexpr int kPolishSteps = 30;
 
 bool positive(const std::array<Complex, 3>& z) { return upright(z[0], z[1], z[2]); }
@@ -57,7 +57,8 @@ class Disc {
       const Atlas::FaceFrame frame = atlas.face_frame(f);
       for (int k = 0; k < 3; ++k) {
         face.variable[k] = variable(mesh.faces[f][k]);
-        face.to_chart[k] = frame.to_chart[k];
+        face.turn[k] = omega_power(frame.to_chart[k].rotation);
+        face.shift[k] = frame.to_chart[k].translation.value();
         face.held[k] = frame.to_chart[k].apply(atlas.position[mesh.faces[f][k]]);
       }
       const Eigen::Matrix2d shape = reference_shape(mesh, mesh.faces[f], length);
@@ -103,7 +104,7 @@ class Disc {
  private:
   struct Face {
     int variable[3];          ///< -1 where held
-    Transition to_chart[3];
+    Complex turn[3], shift[3];  ///< from the vertex's chart to the face's
     Complex held[3];
     Eigen::Matrix2d inverse;  ///< of the reference's edge matrix
     double weight;
@@ -114,7 +115,7 @@ class Disc {
     for (int k = 0; k < 3; ++k)
       z[k] = face.variable[k] < 0
                  ? face.held[k]
-                 : face.to_chart[k].apply(Complex(x[2 * face.variable[k]], x[2 * face.variable[k] + 1]));
+                 : face.turn[k] * Complex(x[2 * face.variable[k]], x[2 * face.variable[k] + 1]) + face.shift[k];
     return z;
   }
 
@@ -138,23 +139,25 @@ class Disc {
     std::fill(gradient, gradient + x_.size(), 0.0);
     double energy = 0.0;
     for (const Face& face : faces_) {
-      const Eigen::Matrix2d j = jacobian(face, corners(face, x));
-      const double det = j.determinant();
+      const auto z = corners(face, x);
+      const Complex e1 = z[1] - z[0], e2 = z[2] - z[0];
+      // J = [e1 e2]·inverse, whose lower left entry is 0.
+      const double i00 = face.inverse(0, 0), i01 = face.inverse(0, 1), i11 = face.inverse(1, 1);
+      const Complex j1 = i00 * e1, j2 = i01 * e1 + i11 * e2;
+      const double det = cross(j1, j2), square = std::norm(j1) + std::norm(j2);
       const double root = std::sqrt(epsilon_ * epsilon_ + det * det);
       const double chi = det > 0.0 ? 0.5 * (det + root) : 0.5 * epsilon_ * epsilon_ / (root - det);
-      const double chi_slope = chi / root;  // dχ/d det
-      const double shape = 0.5 * j.squaredNorm() / chi, area = 0.5 * kAreaWeight * (det * det + 1.0) / chi;
+      const double shape = 0.5 * square / chi, area = 0.5 * kAreaWeight * (det * det + 1.0) / chi;
       energy += face.weight * (shape + area);
-      Eigen::Matrix2d cofactor;
-      cofactor << j(1, 1), -j(1, 0), -j(0, 1), j(0, 0);
-      const Eigen::Matrix2d by_j =
-          j / chi + (kAreaWeight * det / chi - (shape + area) * chi_slope / chi) * cofactor;
-      const Eigen::Matrix2d by_edges = face.weight * by_j * face.inverse.transpose();
-      const Complex d1(by_edges(0, 0), by_edges(1, 0)), d2(by_edges(0, 1), by_edges(1, 1));
+      // dχ/d det = χ / root, and d det / dJ is the cofactor matrix (-i·j2, i·j1).
+      const double by_det = kAreaWeight * det / chi - (shape + area) / root;
+      const Complex g1 = face.weight * (j1 / chi + by_det * Complex(j2.imag(), -j2.real()));
+      const Complex g2 = face.weight * (j2 / chi + by_det * Complex(-j1.imag(), j1.real()));
+      const Complex d1 = i00 * g1 + i01 * g2, d2 = i11 * g2;
       const Complex by_corner[3] = {-d1 - d2, d1, d2};
       for (int k = 0; k < 3; ++k) {
         if (face.variable[k] < 0) continue;
-        const Complex g = omega_power(-face.to_chart[k].rotation) * by_corner[k];
+        const Complex g = std::conj(face.turn[k]) * by_corner[k];
         gradient[2 * face.variable[k]] += g.real();
         gradient[2 * face.variable[k] + 1] += g.imag();
       }
