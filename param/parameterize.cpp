@@ -75,52 +75,74 @@ void refine_folds(Atlas& atlas, const Folds& folds) {
   split_edges(atlas, edges);
 }
 
-/// The initial map without its folds. Throws Error(InvalidMap) where it keeps some.
-Atlas injective_start(const SimplifyResult& simplified, Progress& progress) {
-  Atlas atlas = unfolded_map(simplified.atlas.surface, simplified.removals, progress);
-  refine_at_corners(atlas);
+/// The paper's method (§3.3, steps 2 to 4): alternates global solves and corner relaxation and keeps the round of least
+/// stretch, since carried on they drive the corners toward a conformal map, which starves long limbs. Some faces may be folded.
+Atlas solve_and_relax(Atlas atlas, const ParameterizeOptions& options, ParameterizeResult& result, Progress& progress) {
   seat_boundary(atlas);
-  repair_folds(atlas, progress);
-  Folds folds = find_folds(atlas);
-  if (getenv("VM")) printf("start: %zu %zu\n", folds.faces.size(), folds.vertices.size());
-  for (int i = 0; i < kMostRefinements && !folds.none(); ++i) {
-    refine_folds(atlas, folds);
-    repair_folds(atlas, progress);
-    folds = find_folds(atlas);
-    if (getenv("VM")) printf("refined start: %zu %zu\n", folds.faces.size(), folds.vertices.size());
-  }
-  if (!folds.none()) give_up(folds);
-  const int added = atlas.surface->mesh.vertex_count() - simplified.atlas.surface->mesh.vertex_count();
-  if (added > 0) progress.note(std::to_string(added) + " vertices were added where the map needs more freedom");
-  return atlas;
-}
-
-/// The paper's method (§3.3, steps 2 to 4) on maps free of folds: alternates corner relaxation and global solves and keeps
-/// the round of least stretch, since carried on they drive the corners toward a conformal map, which starves long limbs.
-Atlas smooth_map(const SimplifyResult& simplified, const ParameterizeOptions& options, ParameterizeResult& result,
-                 Progress& progress) {
-  result.flips_before_repair = static_cast<int>(find_folds(simplified.atlas).faces.size());
-  Atlas atlas = injective_start(simplified, progress);
+  atlas.position = boundary_by_arc_length(atlas);
   const auto weights = mean_value_weights(*atlas.surface);
-  const std::vector<int> corners = atlas.base.vertices;
+  const std::vector<char> interior = interior_vertices(atlas);
   Atlas best;
   double best_stretch = 0.0;
   for (int round = 0;; ++round) {
     progress.report("solve and relax", double(round) / (options.relaxations + 1));
-    const int moved = options.relaxations == 0 ? 0 : relax_corners(atlas, weights, kRelaxationRadius);
-    const int held = solve_without_folds(atlas, weights, progress);
+    const int moved =
+        options.relaxations == 0 ? 0 : relax_corners(atlas, weights, kRelaxationRadius, Folding::Allowed);
+    atlas.position = solve_global(atlas, weights, interior_vertices(atlas));
+    for (std::size_t v = 0; v < interior.size(); ++v)
+      if (atlas.corner[v] < 0 && atlas.patch[v]>=0 && !atlas.surface->halfedges.boundary_vertex(v)) atlas.reassign(static_cast<int>(v));
     const double stretch = l2_stretch(atlas);
-    if (getenv("VM")) printf("round %d: moved %d held %d stretch %.4f\n", round, moved, held, stretch);
+    if (getenv("VM")) printf("round %d: moved %d folds %zu+%zu stretch %.4f\n", round, moved, find_folds(atlas).faces.size(), find_folds(atlas).vertices.size(), stretch);
     if (round == 0 || stretch < best_stretch) {
       best = atlas;
       best_stretch = stretch;
       result.relaxation_rounds = round;
-      result.held_vertices = held;
     }
     if (round >= options.relaxations || moved == 0) break;
   }
-  for (int b = 0; b < best.base.vertex_count(); ++b) result.corners_moved += best.base.vertices[b] != corners[b];
   return best;
+}
+
+/// Takes the folds out of a map, refining the surface around those that do not come free at once.
+Folds unfold(Atlas& atlas, int refinements, Progress& progress) {
+  repair_folds(atlas, progress);
+  Folds folds = find_folds(atlas);
+  if (getenv("VM")) printf("unfold: %zu %zu\n", folds.faces.size(), folds.vertices.size());
+  for (int i = 0; i < refinements && !folds.none(); ++i) {
+    refine_folds(atlas, folds);
+    repair_folds(atlas, progress);
+    folds = find_folds(atlas);
+    if (getenv("VM")) printf("unfold refined: %zu %zu\n", folds.faces.size(), folds.vertices.size());
+  }
+  return folds;
+}
+
+/// The smooth map without its folds. Where they do not come free, the solution is approached from the simplification's
+/// unfolded map instead, over maps that have none.
+Atlas smooth_map(const SimplifyResult& simplified, const ParameterizeOptions& options, ParameterizeResult& result,
+                 Progress& progress) {
+  Atlas smooth = simplified.atlas;
+  refine_at_corners(smooth);
+  smooth = solve_and_relax(std::move(smooth), options, result, progress);
+  const Folds folds = find_folds(smooth);
+  result.flips_before_repair = static_cast<int>(folds.faces.size());
+  Atlas atlas = smooth;
+  if (unfold(atlas, 0, progress).none()) {
+    for (int v = 0; v < (int)atlas.patch.size(); ++v)
+      if (atlas.corner[v] < 0 && atlas.patch[v]>=0 && !atlas.surface->halfedges.boundary_vertex(v)) atlas.reassign(v);
+  return atlas; }
+
+  atlas = unfolded_map(simplified.atlas.surface, simplified.removals, progress);
+  refine_at_corners(atlas);
+  seat_boundary(atlas);
+  const Folds left = unfold(atlas, kMostRefinements, progress);
+  if (!left.none()) give_up(left);
+  const auto weights = mean_value_weights(*atlas.surface);
+  int n = drag_corners(atlas, weights, kRelaxationRadius, smooth.base.vertices);
+  if (getenv("VM")) printf("dragged: %d of %d\n", n, atlas.base.vertex_count());
+  result.held_vertices = solve_without_folds(atlas, weights, progress);
+  if (getenv("VM")) printf("held %d stretch %.4f (%.4f)\n", result.held_vertices, l2_stretch(atlas), l2_stretch(smooth));
+  return atlas;
 }
 
 /// Edge of the equilateral triangle as large as a patch on average, for so many base vertices.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "param/atlas.h"
 #include "param/weights.h"
 
@@ -9,8 +11,14 @@ namespace gsp {
 /// regions meet; in units of a base edge) are mapped to a disc by z^(6/k), the outermost are held, the inside is solved
 /// with the corner free, and the vertex nearest 0 becomes the corner; positions, charts and transitions of the region
 /// follow from the disc. Around a boundary corner the same is done in a half disc, and the corner stays. A region that is no
-/// disc or would bring a fold is tried smaller, then left alone: a map free of folds stays so. Regions are independent of
-/// each other and computed in parallel. Returns how many were laid out; the global system has to be solved again.
-int relax_corners(Atlas& atlas, const EdgeWeights& weights, double radius);
+/// disc, or would bring a fold where folds are refused, is tried smaller, then left alone. Regions are independent of each
+/// other and computed in parallel. Returns how many were laid out; the global system has to be solved again.
+enum class Folding { Allowed, Refused };
+int relax_corners(Atlas& atlas, const EdgeWeights& weights, double radius, Folding folding);
+
+/// Carries interior corners of a map that is free of folds, and stays so, to other vertices (one per base vertex): step by
+/// step along the surface's edges, the vertices around giving way within discs of at most `radius`. A corner that cannot get
+/// on stays where it got. Returns how many corners are where they should be.
+int drag_corners(Atlas& atlas, const EdgeWeights& weights, double radius, const std::vector<int>& targets);
 
 }  // namespace gsp
