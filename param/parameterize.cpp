@@ -80,7 +80,8 @@ void refine_folds(Atlas& atlas, const Folds& folds) {
 Atlas solve_and_relax(Atlas atlas, const ParameterizeOptions& options, ParameterizeResult& result, Progress& progress) {
   seat_boundary(atlas);
   atlas.position = boundary_by_arc_length(atlas);
-  const auto weights = mean_value_weights(*atlas.surface);
+  auto weights = mean_value_weights(*atlas.surface);
+  const double eta = getenv("ETA") ? atof(getenv("ETA")) : 0.0;
   const std::vector<char> interior = interior_vertices(atlas);
   Atlas best;
   double best_stretch = 0.0;
@@ -99,6 +100,7 @@ Atlas solve_and_relax(Atlas atlas, const ParameterizeOptions& options, Parameter
       result.relaxation_rounds = round;
     }
     if (round >= options.relaxations || moved == 0) break;
+    if (eta > 0) { const auto sigma = vertex_stretch(atlas); for (int e = 0; e < atlas.surface->edge_count(); ++e) { int h = atlas.surface->edge_halfedge[e]; int a = atlas.surface->halfedges.from(h), b = atlas.surface->halfedges.to(h); weights[e][0] /= std::pow(std::clamp(sigma[b],0.1,10.0), eta); weights[e][1] /= std::pow(std::clamp(sigma[a],0.1,10.0), eta);} }
   }
   return best;
 }
@@ -126,6 +128,7 @@ Atlas smooth_map(const SimplifyResult& simplified, const ParameterizeOptions& op
   smooth = solve_and_relax(std::move(smooth), options, result, progress);
   const Folds folds = find_folds(smooth);
   result.flips_before_repair = static_cast<int>(folds.faces.size());
+  if (getenv("CHAIN")) return smooth;
   Atlas atlas = smooth;
   if (unfold(atlas, 0, progress).none()) {
     for (int v = 0; v < (int)atlas.patch.size(); ++v)
@@ -138,6 +141,15 @@ Atlas smooth_map(const SimplifyResult& simplified, const ParameterizeOptions& op
   const Folds left = unfold(atlas, kMostRefinements, progress);
   if (!left.none()) give_up(left);
   const auto weights = mean_value_weights(*atlas.surface);
+  if (getenv("STRAT")) {
+    int rounds = atoi(getenv("STRAT"));
+    for (int r = 0; r < rounds; ++r) {
+      int m = relax_corners(atlas, weights, kRelaxationRadius, Folding::Refused);
+      result.held_vertices = solve_without_folds(atlas, weights, progress);
+      printf("guarded round %d moved %d held %d stretch %.4f\n", r, m, result.held_vertices, l2_stretch(atlas));
+    }
+    return atlas;
+  }
   int n = drag_corners(atlas, weights, kRelaxationRadius, smooth.base.vertices);
   if (getenv("VM")) printf("dragged: %d of %d\n", n, atlas.base.vertex_count());
   result.held_vertices = solve_without_folds(atlas, weights, progress);
@@ -159,6 +171,7 @@ ParameterizeResult finish(const SimplifyResult& simplified, Method method, const
   ParameterizeResult result;
   Atlas atlas = method == Method::Gsp ? smooth_map(simplified, options, result, progress) : simplified.atlas;
   if (method == Method::MapsSmoothed) smooth_by_loop(atlas, progress);
+  if (getenv("IT") && method == Method::Gsp) for (int k = 0; k < 4; ++k) { bool ok = lower_distortion(atlas, atoi(getenv("IT"))/4); if(getenv("VM")) printf("lower %d stretch %.4f\n", ok, l2_stretch(atlas)); }
   result.map = atlas.finish(provenance(options, method, atlas));
   if (method == Method::Gsp) {
     const MapCheck check = check_map(result.map);

@@ -39,7 +39,8 @@ Eigen::Matrix2d reference_shape(const Mesh& mesh, const Triangle& t, double mean
 /// The energy over one disc, as the optimiser sees it.
 class Disc {
  public:
-  Disc(Atlas& atlas, std::vector<int> vertices, std::vector<int> faces) : atlas_(atlas), vertices_(std::move(vertices)) {
+  Disc(Atlas& atlas, std::vector<int> vertices, std::vector<int> faces, double area_weight = kAreaWeight)
+      : atlas_(atlas), vertices_(std::move(vertices)), area_weight_(area_weight) {
     std::vector<std::pair<int, int>> sorted;
     for (std::size_t i = 0; i < vertices_.size(); ++i) sorted.emplace_back(vertices_[i], static_cast<int>(i));
     std::sort(sorted.begin(), sorted.end());
@@ -76,11 +77,7 @@ class Disc {
   }
 
   bool untangle() {
-    x_.resize(2 * vertices_.size());
-    for (std::size_t i = 0; i < vertices_.size(); ++i) {
-      x_[2 * i] = atlas_.position[vertices_[i]].real();
-      x_[2 * i + 1] = atlas_.position[vertices_[i]].imag();
-    }
+    load();
     double least = least_determinant();
     epsilon_ = 1.0;
     for (int step = 0; step < kOuterSteps && !(least > 0.0); ++step) {
@@ -94,6 +91,14 @@ class Disc {
     const std::vector<double> valid = x_;
     minimise(kPolishSteps);
     if (!all_positive()) x_ = valid;
+    return all_positive();
+  }
+
+  /// From a map free of folds to one of less energy.
+  bool polish(int steps) {
+    load();
+    epsilon_ = 1e-9;
+    minimise(steps);
     return all_positive();
   }
 
@@ -147,10 +152,10 @@ class Disc {
       const double det = cross(j1, j2), square = std::norm(j1) + std::norm(j2);
       const double root = std::sqrt(epsilon_ * epsilon_ + det * det);
       const double chi = det > 0.0 ? 0.5 * (det + root) : 0.5 * epsilon_ * epsilon_ / (root - det);
-      const double shape = 0.5 * square / chi, area = 0.5 * kAreaWeight * (det * det + 1.0) / chi;
+      const double shape = 0.5 * square / chi, area = 0.5 * area_weight_ * (det * det + 1.0) / chi;
       energy += face.weight * (shape + area);
       // dχ/d det = χ / root, and d det / dJ is the cofactor matrix (-i·j2, i·j1).
-      const double by_det = kAreaWeight * det / chi - (shape + area) / root;
+      const double by_det = area_weight_ * det / chi - (shape + area) / root;
       const Complex g1 = face.weight * (j1 / chi + by_det * Complex(j2.imag(), -j2.real()));
       const Complex g2 = face.weight * (j2 / chi + by_det * Complex(-j1.imag(), j1.real()));
       const Complex d1 = i00 * g1 + i01 * g2, d2 = i11 * g2;
@@ -163,6 +168,14 @@ class Disc {
       }
     }
     return energy;
+  }
+
+  void load() {
+    x_.resize(2 * vertices_.size());
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+      x_[2 * i] = atlas_.position[vertices_[i]].real();
+      x_[2 * i + 1] = atlas_.position[vertices_[i]].imag();
+    }
   }
 
   void minimise(int steps) {
@@ -186,6 +199,7 @@ class Disc {
   Atlas& atlas_;
   std::vector<int> vertices_;
   std::vector<Face> faces_;
+  double area_weight_;
   std::vector<double> x_;
   double epsilon_ = 1.0;
 };
@@ -292,5 +306,18 @@ class Repair {
 }  // namespace
 
 RepairReport repair_folds(Atlas& atlas, Progress& progress) { return Repair(atlas, progress).run(); }
+
+bool lower_distortion(Atlas& atlas, int steps) {
+  std::vector<int> vertices, faces(atlas.surface->mesh.faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) faces[f] = static_cast<int>(f);
+  for (std::size_t v = 0; v < atlas.patch.size(); ++v)
+    if (atlas.patch[v] >= 0 && atlas.corner[v] < 0 && !atlas.surface->halfedges.boundary_vertex(static_cast<int>(v))) vertices.push_back(v);
+  const std::vector<Complex> before = atlas.position;
+  Disc disc(atlas, vertices, faces, getenv("LAM") ? atof(getenv("LAM")) : 0.5);
+  bool good = disc.polish(steps);
+  if (good) { disc.write_back(); good = find_folds(atlas).none(); if (!good) atlas.position = before; }
+  if (good) for (int v : vertices) atlas.reassign(v);
+  return good;
+}
 
 }  // namespace gsp

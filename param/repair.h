@@ -20,4 +20,6 @@ struct RepairReport {
 /// remain, and `find_folds` tells. Vertices keep their charts, which they may leave.
 RepairReport repair_folds(Atlas& atlas, Progress& progress);
 
+bool lower_distortion(Atlas& atlas, int steps);
+
 }  // namespace gsp
