@@ -11,6 +11,7 @@
 #include "mesh/topology.h"
 #include "param/folds.h"
 #include "param/global_system.h"
+#include "param/lower_distortion.h"
 #include "param/maps_smoothing.h"
 #include "param/refine.h"
 #include "param/relax_corners.h"
@@ -125,12 +126,12 @@ Atlas smooth_map(const SimplifyResult& simplified, const ParameterizeOptions& op
                  Progress& progress) {
   Atlas smooth = simplified.atlas;
   refine_at_corners(smooth);
-  smooth = solve_and_relax(std::move(smooth), options, result, progress);
+  if (!getenv("STRAT")) smooth = solve_and_relax(std::move(smooth), options, result, progress);
   const Folds folds = find_folds(smooth);
   result.flips_before_repair = static_cast<int>(folds.faces.size());
   if (getenv("CHAIN")) return smooth;
   Atlas atlas = smooth;
-  if (unfold(atlas, 0, progress).none()) {
+  if (!getenv("STRAT") && unfold(atlas, 0, progress).none()) {
     for (int v = 0; v < (int)atlas.patch.size(); ++v)
       if (atlas.corner[v] < 0 && atlas.patch[v]>=0 && !atlas.surface->halfedges.boundary_vertex(v)) atlas.reassign(v);
   return atlas; }
@@ -171,7 +172,7 @@ ParameterizeResult finish(const SimplifyResult& simplified, Method method, const
   ParameterizeResult result;
   Atlas atlas = method == Method::Gsp ? smooth_map(simplified, options, result, progress) : simplified.atlas;
   if (method == Method::MapsSmoothed) smooth_by_loop(atlas, progress);
-  if (getenv("IT") && method == Method::Gsp) for (int k = 0; k < 4; ++k) { bool ok = lower_distortion(atlas, atoi(getenv("IT"))/4); if(getenv("VM")) printf("lower %d stretch %.4f\n", ok, l2_stretch(atlas)); }
+  if (getenv("IT") && method == Method::Gsp) for (int k = 0; k < 4; ++k) { if (getenv("RELAX") && k) { auto w = mean_value_weights(*atlas.surface); int m = relax_corners(atlas, w, atof(getenv("RELAX")), Folding::Refused); if(getenv("VM")) printf("relaxed %d: stretch %.4f\n", m, l2_stretch(atlas)); } bool ok = lower_distortion(atlas, atoi(getenv("IT"))/4, progress); if(getenv("VM")) printf("lower %d stretch %.4f\n", ok, l2_stretch(atlas)); }
   result.map = atlas.finish(provenance(options, method, atlas));
   if (method == Method::Gsp) {
     const MapCheck check = check_map(result.map);
