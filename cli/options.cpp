@@ -145,7 +145,17 @@ void Command::parameterize_options(ParameterizeOptions& options) {
                   "base vertices to stop at; auto stops before metric distortion dominates the cost");
   number("--gamma", options.gamma, 0.0, kMostWeight, "weight of triangle shape in the cost");
   number("--mu", options.mu, 0.0, kMostWeight, "weight of area dispersion in the cost");
-  integer("--relaxations", options.relaxations, 0, kMostRelaxations, "rounds of solve and corner relaxation at most");
+  integer("--relaxations", options.relaxations, 0, kMostRelaxations, "corner relaxations between solves at most");
+  const std::vector<std::string> objectives{objective_name(Objective::Distortion), objective_name(Objective::MeanValue)};
+  app_->add_option_function<std::string>(
+          "--objective",
+          [&options, objectives](const std::string& word) {
+            options.objective = word == objectives[0] ? Objective::Distortion : Objective::MeanValue;
+          },
+          fmt::format("what the map minimises: {} is the paper's linear system [{}; {}]", objectives[1],
+                      objective_name(options.objective), fmt::join(objectives, ", ")))
+      ->check([objectives](const std::string& word) { return refusal(word, objectives); })
+      ->option_text("WORD");
 }
 
 void Command::level_option(RemeshOptions& options) {

@@ -29,11 +29,14 @@ int run_parameterize(Options& options, Context& context) {
   if (!options.omega_csv.empty()) write_omega_csv(options.omega_csv, result.omega);
 
   Json report = {{"method", options.method},
+                 {"objective", objective_name(options.parameterize.objective)},
                  {"base_vertices", result.map.base.vertex_count()},
                  {"base_faces", result.map.base.face_count()},
                  {"relaxation_rounds", result.relaxation_rounds},
                  {"corners_moved", result.corners_moved},
                  {"flips_before_repair", result.flips_before_repair},
+                 {"vertices_added", result.map.surface.vertex_count() - mesh.vertex_count()},
+                 {"vertices_held", result.held_vertices},
                  {"output", options.output}};
   int status = 0;
   if (options.check) {

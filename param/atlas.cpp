@@ -95,6 +95,11 @@ bool Atlas::reassign(int vertex) {
   return true;
 }
 
+void Atlas::reassign_all() {
+  for (int v = 0; v < static_cast<int>(patch.size()); ++v)
+    if (patch[v] >= 0 && corner[v] < 0 && !surface->halfedges.boundary_vertex(v)) reassign(v);
+}
+
 Atlas::FaceFrame Atlas::face_frame(int face) const {
   const Triangle& t = surface->mesh.faces[face];
   int reference = 0;

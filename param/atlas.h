@@ -58,6 +58,9 @@ class Atlas {
   /// leaves the vertex as it was, where the walk leaves the base or turns around a corner without an end.
   bool reassign(int vertex);
 
+  /// The same for all vertices that are neither patch corners nor on a boundary.
+  void reassign_all();
+
   /// Transitions of the face's corners into a common chart, that of corner `reference` (0..2). Around a face no corner of
   /// which is a patch corner the result does not depend on the reference.
   struct FaceFrame {

@@ -83,18 +83,17 @@ bool lower_distortion(Atlas& atlas, int steps, Progress& progress) {
   parameters.max_linesearch = 60;
   std::vector<double> y(2 * vertices.size(), 0.0);
   double least = 0.0;
-  int rc = lbfgs(
+  lbfgs(
       static_cast<int>(y.size()), y.data(), &least,
       [](void* self, const double* at, double* gradient, const int, const double) {
         return static_cast<Preconditioned*>(self)->evaluate(at, gradient);
       },
-      [](void* self, const double*, const double*, const double fx, const double, const double, const double ss, int, int step, int ls) {
-        if (getenv("VM") && step % 20 == 0) printf("  step %d energy %.6f len %g ls %d\n", step, fx, ss, ls);
+      [](void* self, const double*, const double*, const double, const double, const double, const double, int, int step,
+         int) {
         static_cast<Preconditioned*>(self)->step_made(step);
         return 0;
       },
       &problem, &parameters);
-  if (getenv("VM")) printf("  lbfgs rc %d energy %.6f\n", rc, least);
   const std::vector<Complex> before = atlas.position;
   const std::vector<double> x = problem.at(y.data());
   energy.write_back(x, atlas);
@@ -102,7 +101,7 @@ bool lower_distortion(Atlas& atlas, int steps, Progress& progress) {
     atlas.position = before;
     return false;
   }
-  for (int v : vertices) atlas.reassign(v);
+  atlas.reassign_all();
   return true;
 }
 

@@ -27,6 +27,10 @@ namespace gsp {
 namespace {
 
 constexpr double kRelaxationRadius = 0.45;  // in base edges; below 1/2 regions never meet
+constexpr int kStepsPerRound = 100;          // of lowering the distortion between two relaxations
+constexpr int kGuardedRounds = 3;
+constexpr int kPatience = 2;                // rounds before the paper's iteration can be given up,
+constexpr double kHopeless = 2e-4;          // where a larger share of faces is folded
 constexpr int kMostRefinements = 4;         // of the surface around folds that do not come free
 constexpr int kAutomaticShare = 64;         // vertices per base vertex, of which the automatic stop falls short or not
 constexpr double kLongestEdge = 0.25;       // of the edge of an equilateral patch of mean area
@@ -47,7 +51,8 @@ std::vector<std::string> provenance(const ParameterizeOptions& options, Method m
   };
   return {line("method", method_name(method)),         line("base_vertices", atlas.base.vertex_count()),
           line("base_vertices_asked", options.base_vertices), line("gamma", options.gamma),
-          line("mu", options.mu),                      line("relaxations", options.relaxations)};
+          line("mu", options.mu),                      line("relaxations", options.relaxations),
+          line("objective", objective_name(options.objective))};
 }
 
 [[noreturn]] void give_up(const Folds& folds) {
@@ -76,85 +81,119 @@ void refine_folds(Atlas& atlas, const Folds& folds) {
   split_edges(atlas, edges);
 }
 
-/// The paper's method (§3.3, steps 2 to 4): alternates global solves and corner relaxation and keeps the round of least
-/// stretch, since carried on they drive the corners toward a conformal map, which starves long limbs. Some faces may be folded.
-Atlas solve_and_relax(Atlas atlas, const ParameterizeOptions& options, ParameterizeResult& result, Progress& progress) {
-  seat_boundary(atlas);
-  atlas.position = boundary_by_arc_length(atlas);
-  auto weights = mean_value_weights(*atlas.surface);
-  const double eta = getenv("ETA") ? atof(getenv("ETA")) : 0.0;
-  const std::vector<char> interior = interior_vertices(atlas);
-  Atlas best;
-  double best_stretch = 0.0;
-  for (int round = 0;; ++round) {
-    progress.report("solve and relax", double(round) / (options.relaxations + 1));
-    const int moved =
-        options.relaxations == 0 ? 0 : relax_corners(atlas, weights, kRelaxationRadius, Folding::Allowed);
-    atlas.position = solve_global(atlas, weights, interior_vertices(atlas));
-    for (std::size_t v = 0; v < interior.size(); ++v)
-      if (atlas.corner[v] < 0 && atlas.patch[v]>=0 && !atlas.surface->halfedges.boundary_vertex(v)) atlas.reassign(static_cast<int>(v));
-    const double stretch = l2_stretch(atlas);
-    if (getenv("VM")) printf("round %d: moved %d folds %zu+%zu stretch %.4f\n", round, moved, find_folds(atlas).faces.size(), find_folds(atlas).vertices.size(), stretch);
-    if (round == 0 || stretch < best_stretch) {
-      best = atlas;
-      best_stretch = stretch;
-      result.relaxation_rounds = round;
-    }
-    if (round >= options.relaxations || moved == 0) break;
-    if (eta > 0) { const auto sigma = vertex_stretch(atlas); for (int e = 0; e < atlas.surface->edge_count(); ++e) { int h = atlas.surface->edge_halfedge[e]; int a = atlas.surface->halfedges.from(h), b = atlas.surface->halfedges.to(h); weights[e][0] /= std::pow(std::clamp(sigma[b],0.1,10.0), eta); weights[e][1] /= std::pow(std::clamp(sigma[a],0.1,10.0), eta);} }
-  }
-  return best;
-}
-
 /// Takes the folds out of a map, refining the surface around those that do not come free at once.
 Folds unfold(Atlas& atlas, int refinements, Progress& progress) {
   repair_folds(atlas, progress);
   Folds folds = find_folds(atlas);
-  if (getenv("VM")) printf("unfold: %zu %zu\n", folds.faces.size(), folds.vertices.size());
   for (int i = 0; i < refinements && !folds.none(); ++i) {
     refine_folds(atlas, folds);
     repair_folds(atlas, progress);
     folds = find_folds(atlas);
-    if (getenv("VM")) printf("unfold refined: %zu %zu\n", folds.faces.size(), folds.vertices.size());
   }
   return folds;
 }
 
-/// The smooth map without its folds. Where they do not come free, the solution is approached from the simplification's
-/// unfolded map instead, over maps that have none.
-Atlas smooth_map(const SimplifyResult& simplified, const ParameterizeOptions& options, ParameterizeResult& result,
-                 Progress& progress) {
-  Atlas smooth = simplified.atlas;
-  refine_at_corners(smooth);
-  if (!getenv("STRAT")) smooth = solve_and_relax(std::move(smooth), options, result, progress);
-  const Folds folds = find_folds(smooth);
-  result.flips_before_repair = static_cast<int>(folds.faces.size());
-  if (getenv("CHAIN")) return smooth;
-  Atlas atlas = smooth;
-  if (!getenv("STRAT") && unfold(atlas, 0, progress).none()) {
-    for (int v = 0; v < (int)atlas.patch.size(); ++v)
-      if (atlas.corner[v] < 0 && atlas.patch[v]>=0 && !atlas.surface->halfedges.boundary_vertex(v)) atlas.reassign(v);
-  return atlas; }
-
-  atlas = unfolded_map(simplified.atlas.surface, simplified.removals, progress);
+/// The initial map without its folds. Throws Error(InvalidMap) where it keeps some.
+Atlas injective_start(const SimplifyResult& simplified, Progress& progress) {
+  Atlas atlas = unfolded_map(simplified.atlas.surface, simplified.removals, progress);
   refine_at_corners(atlas);
   seat_boundary(atlas);
-  const Folds left = unfold(atlas, kMostRefinements, progress);
-  if (!left.none()) give_up(left);
+  const Folds folds = unfold(atlas, kMostRefinements, progress);
+  if (!folds.none()) give_up(folds);
+  atlas.reassign_all();
+  const int added = atlas.surface->mesh.vertex_count() - simplified.atlas.surface->mesh.vertex_count();
+  if (added > 0) progress.note(std::to_string(added) + " vertices were added where the map needs more freedom");
+  return atlas;
+}
+
+/// Keeps the round of least stretch.
+class Best {
+ public:
+  void offer(const Atlas& atlas, int round) {
+    const double stretch = l2_stretch(atlas);
+    if (round_ >= 0 && stretch >= stretch_) return;
+    atlas_ = atlas;
+    stretch_ = stretch;
+    round_ = round;
+  }
+  const Atlas& atlas() const { return atlas_; }
+  int round() const { return round_; }
+
+ private:
+  Atlas atlas_;
+  double stretch_ = 0.0;
+  int round_ = -1;
+};
+
+/// The paper's iteration (§3.3, steps 2 to 4) from the initial map, folds and all, as long as few faces fold. It drives
+/// corners toward a conformal map, which starves long limbs until they fold.
+Atlas solve_and_relax(Atlas atlas, const ParameterizeOptions& options, ParameterizeResult& result, Progress& progress) {
+  refine_at_corners(atlas);
+  seat_boundary(atlas);
+  atlas.position = boundary_by_arc_length(atlas);
   const auto weights = mean_value_weights(*atlas.surface);
-  if (getenv("STRAT")) {
-    int rounds = atoi(getenv("STRAT"));
-    for (int r = 0; r < rounds; ++r) {
-      int m = relax_corners(atlas, weights, kRelaxationRadius, Folding::Refused);
-      result.held_vertices = solve_without_folds(atlas, weights, progress);
-      printf("guarded round %d moved %d held %d stretch %.4f\n", r, m, result.held_vertices, l2_stretch(atlas));
-    }
+  Best best;
+  for (int round = 0;; ++round) {
+    progress.report("solve and relax", double(round) / (options.relaxations + 1));
+    const int moved = options.relaxations == 0 ? 0 : relax_corners(atlas, weights, kRelaxationRadius, Folding::Allowed);
+    atlas.position = solve_global(atlas, weights, interior_vertices(atlas));
+    atlas.reassign_all();
+    best.offer(atlas, round);
+    const std::size_t folded = find_folds(atlas).faces.size();
+    result.flips_before_repair = static_cast<int>(folded);
+    if (round >= options.relaxations || moved == 0) break;
+    if (round >= kPatience && folded > kHopeless * atlas.surface->mesh.faces.size()) break;
+  }
+  result.relaxation_rounds = best.round();
+  return best.atlas();
+}
+
+/// The paper's solution. Where its folds do not come free it is approached over maps that have none.
+Atlas mean_value_map(const SimplifyResult& simplified, const ParameterizeOptions& options, ParameterizeResult& result,
+                     Progress& progress) {
+  Atlas atlas = solve_and_relax(simplified.atlas, options, result, progress);
+  if (unfold(atlas, 0, progress).none()) {
+    atlas.reassign_all();
     return atlas;
   }
-  int n = drag_corners(atlas, weights, kRelaxationRadius, smooth.base.vertices);
-  if (getenv("VM")) printf("dragged: %d of %d\n", n, atlas.base.vertex_count());
-  result.held_vertices = solve_without_folds(atlas, weights, progress);
-  if (getenv("VM")) printf("held %d stretch %.4f (%.4f)\n", result.held_vertices, l2_stretch(atlas), l2_stretch(smooth));
+  atlas = injective_start(simplified, progress);
+  const auto weights = mean_value_weights(*atlas.surface);
+  Best best;
+  for (int round = 0; round < kGuardedRounds; ++round) {
+    progress.report("solve and relax without folds", double(round) / kGuardedRounds);
+    if (options.relaxations > 0) relax_corners(atlas, weights, kRelaxationRadius, Folding::Refused);
+    result.held_vertices = solve_without_folds(atlas, weights, progress);
+    best.offer(atlas, round);
+  }
+  result.relaxation_rounds = best.round();
+  return best.atlas();
+}
+
+/// The map of least distortion: from the initial map without its folds, lowering the energy and relaxing the corners in turn.
+Atlas low_distortion_map(const SimplifyResult& simplified, const ParameterizeOptions& options,
+                         ParameterizeResult& result, Progress& progress) {
+  result.flips_before_repair = static_cast<int>(find_folds(simplified.atlas).faces.size());
+  Atlas atlas = injective_start(simplified, progress);
+  const auto weights = mean_value_weights(*atlas.surface);
+  Best best;
+  for (int round = 0; round <= options.relaxations; ++round) {
+    const int moved = round == 0 ? 0 : relax_corners(atlas, weights, kRelaxationRadius, Folding::Refused);
+    if (round > 0 && moved == 0) break;
+    lower_distortion(atlas, kStepsPerRound, progress);
+    best.offer(atlas, round);
+  }
+  result.relaxation_rounds = best.round();
+  return best.atlas();
+}
+
+/// Makes the map without folds by the method and objective asked for, and counts how its corners moved.
+Atlas smooth_map(const SimplifyResult& simplified, const ParameterizeOptions& options, ParameterizeResult& result,
+                 Progress& progress) {
+  const Atlas atlas = options.objective == Objective::MeanValue
+                          ? mean_value_map(simplified, options, result, progress)
+                          : low_distortion_map(simplified, options, result, progress);
+  for (int b = 0; b < atlas.base.vertex_count(); ++b)
+    result.corners_moved += atlas.base.vertices[b] != simplified.atlas.base.vertices[b];
   return atlas;
 }
 
@@ -172,7 +211,6 @@ ParameterizeResult finish(const SimplifyResult& simplified, Method method, const
   ParameterizeResult result;
   Atlas atlas = method == Method::Gsp ? smooth_map(simplified, options, result, progress) : simplified.atlas;
   if (method == Method::MapsSmoothed) smooth_by_loop(atlas, progress);
-  if (getenv("IT") && method == Method::Gsp) for (int k = 0; k < 4; ++k) { if (getenv("RELAX") && k) { auto w = mean_value_weights(*atlas.surface); int m = relax_corners(atlas, w, atof(getenv("RELAX")), Folding::Refused); if(getenv("VM")) printf("relaxed %d: stretch %.4f\n", m, l2_stretch(atlas)); } bool ok = lower_distortion(atlas, atoi(getenv("IT"))/4, progress); if(getenv("VM")) printf("lower %d stretch %.4f\n", ok, l2_stretch(atlas)); }
   result.map = atlas.finish(provenance(options, method, atlas));
   if (method == Method::Gsp) {
     const MapCheck check = check_map(result.map);
@@ -188,6 +226,10 @@ ParameterizeResult finish(const SimplifyResult& simplified, Method method, const
 }
 
 }  // namespace
+
+const char* objective_name(Objective objective) {
+  return objective == Objective::MeanValue ? "mean-value" : "distortion";
+}
 
 const char* method_name(Method method) {
   switch (method) {

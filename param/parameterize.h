@@ -19,14 +19,24 @@ enum class Method {
 /// "gsp", "maps", "maps-smoothed".
 const char* method_name(Method method);
 
+/// What the smooth map of Method::Gsp minimises.
+enum class Objective {
+  Distortion,  ///< `DistortionEnergy` over maps without folds: near-isometric, measured better in remeshing error and rate
+  MeanValue    ///< the paper's global linear system with mean value weights (§3.2.1), repaired where it folds
+};
+
+/// "distortion", "mean-value".
+const char* objective_name(Objective objective);
+
 struct ParameterizeOptions {
   Method method = Method::Gsp;
+  Objective objective = Objective::Distortion;
   /// Base vertices to stop at, at least 4. 0: automatic, before metric distortion dominates Ω (§3.1.1, figure 5d).
   /// The simplification stops earlier, with a note, where no vertex can be removed any more.
   int base_vertices = 0;
   double gamma = 2.0;  ///< weight of triangle shape in Ω, >= 0
   double mu = 1.0;     ///< weight of area dispersion in Ω, >= 0
-  int relaxations = 8; ///< at most so many rounds of solve and corner relaxation, >= 0; it ends when no corner moves
+  int relaxations = 4; ///< at most so many corner relaxations between solves, >= 0; it ends when no corner moves
 };
 
 /// One vertex removal: the three area-weighted parts of Ω, for figure 5d.
@@ -38,11 +48,10 @@ struct OmegaRecord {
   double omega() const { return shape + dispersion + metric; }
 };
 
-
 struct ParameterizeResult {
   Parameterization map;
   std::vector<OmegaRecord> omega;
-  int flips_before_repair = 0;
+  int flips_before_repair = 0;  ///< of the initial map, or of the paper's solution with Objective::MeanValue
   int relaxation_rounds = 0;
   int corners_moved = 0;
   int held_vertices = 0;  ///< kept back from the smooth solution, which would be folded there

@@ -15,8 +15,6 @@ namespace gsp {
 namespace {
 
 constexpr double kSector = std::numbers::pi / 3.0;
-constexpr double kReach[] = {0.35, 0.15, 0.05};  // of a corner that is dragged, in its disc
-constexpr double kDetour = 1.5;
 constexpr double kShrink[] = {1.0, 0.6, 0.36};  // of the radius, where a larger region would fold
 
 /// One vertex of the region around a corner, seen from the corner.
@@ -73,28 +71,7 @@ class Relaxation {
     return closed(move);
   }
 
-  /// Lays the region out from the disc as it is, drawn so that of the vertices within `reach` (of the rim's radius) the one
-  /// of least `distance` lies at 0. False where that is the corner itself.
-  bool drag(const std::unordered_map<int, double>& distance, double reach, Move& move) {
-    if (!collect()) return false;
-    const double limit = reach * rim_radius();
-    int best = 0;
-    double least = distance.at(corner_);
-    for (std::size_t i = 1; i < vertices_.size(); ++i) {
-      const auto at = distance.find(vertices_[i].vertex);
-      if (!vertices_[i].inside || at == distance.end() || at->second >= least || std::abs(vertices_[i].disc) > limit)
-        continue;
-      least = at->second;
-      best = static_cast<int>(i);
-    }
-    if (best == 0 || !draw_to_center(best)) return false;
-    move.new_corner = vertices_[best].vertex;
-    place(best, move);
-    return closed(move);
-  }
-
  private:
-  double rim_radius() const;
   bool collect();
   void gather();
   bool lift();
@@ -280,16 +257,11 @@ int Relaxation::nearest_to_center() const {
   return nearest;
 }
 
-double Relaxation::rim_radius() const {
+/// Moves the disc's middle so that the vertex lies at 0: a shift that fades out smoothly toward the rim.
+bool Relaxation::draw_to_center(int nearest) {
   double rim = 1e300;
   for (const DiscVertex& v : vertices_)
     if (!v.inside && v.vertex != corner_) rim = std::min(rim, std::abs(v.disc));
-  return rim;
-}
-
-/// Moves the disc's middle so that the vertex lies at 0: a shift that fades out smoothly toward the rim.
-bool Relaxation::draw_to_center(int nearest) {
-  const double rim = rim_radius();
   const Complex shift = vertices_[nearest].disc;
   if (std::abs(shift) > 0.4 * rim) return false;
   for (DiscVertex& v : vertices_) {
@@ -458,61 +430,6 @@ int relax_corners(Atlas& atlas, const EdgeWeights& weights, double radius, Foldi
     }
   }
   return moved;
-}
-
-namespace {
-
-/// Distances along edges from the target, as far as the corner and what lies about as near.
-std::unordered_map<int, double> distances_to(const Surface& surface, int target, int corner) {
-  std::unordered_map<int, double> distance;
-  using Reached = std::pair<double, int>;
-  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> queue;
-  queue.push({0.0, target});
-  double farthest = 1e300;
-  while (!queue.empty()) {
-    const auto [d, v] = queue.top();
-    queue.pop();
-    if (d > farthest) break;
-    if (!distance.emplace(v, d).second) continue;
-    if (v == corner) farthest = kDetour * d;
-    surface.for_each_neighbour(v, [&](int w, int, bool) {
-      if (!distance.count(w)) queue.push({d + (surface.mesh.positions[w] - surface.mesh.positions[v]).norm(), w});
-    });
-  }
-  return distance;
-}
-
-/// One step toward the target; false where none is possible without a fold.
-bool drag_once(Atlas& atlas, const EdgeWeights& weights, double radius, int base_vertex,
-               const std::unordered_map<int, double>& distance) {
-  for (double shrink : kShrink)
-    for (double reach : kReach) {
-      Move move;
-      if (!Relaxation(atlas, weights, shrink * radius, base_vertex).drag(distance, reach, move)) continue;
-      move.base_vertex = base_vertex;
-      exchange(atlas, move);
-      if (free_of_folds(atlas, move)) return true;
-      exchange(atlas, move);
-    }
-  return false;
-}
-
-}  // namespace
-
-int drag_corners(Atlas& atlas, const EdgeWeights& weights, double radius, const std::vector<int>& targets) {
-  int arrived = 0;
-  for (int b = 0; b < atlas.base.vertex_count(); ++b) {
-    if (atlas.fans[b].boundary || atlas.base.vertices[b] == targets[b]) {
-      ++arrived;
-      continue;
-    }
-    if (atlas.corner[targets[b]] >= 0) continue;
-    const auto distance = distances_to(*atlas.surface, targets[b], atlas.base.vertices[b]);
-    while (atlas.base.vertices[b] != targets[b] && drag_once(atlas, weights, radius, b, distance)) {
-    }
-    arrived += atlas.base.vertices[b] == targets[b];
-  }
-  return arrived;
 }
 
 }  // namespace gsp

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "param/atlas.h"
 #include "param/weights.h"
 
@@ -15,10 +13,5 @@ namespace gsp {
 /// other and computed in parallel. Returns how many were laid out; the global system has to be solved again.
 enum class Folding { Allowed, Refused };
 int relax_corners(Atlas& atlas, const EdgeWeights& weights, double radius, Folding folding);
-
-/// Carries interior corners of a map that is free of folds, and stays so, to other vertices (one per base vertex): step by
-/// step along the surface's edges, the vertices around giving way within discs of at most `radius`. A corner that cannot get
-/// on stays where it got. Returns how many corners are where they should be.
-int drag_corners(Atlas& atlas, const EdgeWeights& weights, double radius, const std::vector<int>& targets);
 
 }  // namespace gsp

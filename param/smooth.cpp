@@ -50,14 +50,11 @@ class Approach {
     double step = 1.0;
     for (int i = 0; i < kMostSteps && step >= kShortestStep; ++i) {
       const bool made = advance(step, kFewRings);
-      if (getenv("VM")) printf("   step %g %d held %d\n", step, made, held_);
       if (made && step == 1.0) return held_;
       step = made ? std::min(1.0, 2.0 * step) : 0.5 * step;
     }
     for (step = 1.0; step >= kShortestStep; step *= 0.5) {
-      const bool made = advance(step, kManyRings);
-      if (getenv("VM")) printf("   long step %g %d held %d\n", step, made, held_);
-      if (made) break;
+      if (advance(step, kManyRings)) break;
     }
     return held_;
   }
@@ -96,12 +93,10 @@ class Approach {
 
 int solve_without_folds(Atlas& atlas, const EdgeWeights& weights, Progress& progress) {
   seat_boundary(atlas);
-  const std::vector<char> interior = interior_vertices(atlas);
   Atlas goal = atlas;
   goal.position = boundary_by_arc_length(atlas);
-  const int held = Approach(atlas, solve_global(goal, weights, interior), progress).run();
-  for (std::size_t v = 0; v < interior.size(); ++v)
-    if (interior[v]) atlas.reassign(static_cast<int>(v));
+  const int held = Approach(atlas, solve_global(goal, weights, interior_vertices(goal)), progress).run();
+  atlas.reassign_all();
   return held;
 }
 

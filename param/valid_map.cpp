@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "param/folds.h"
 #include "param/repair.h"
 
 namespace gsp {
@@ -22,13 +21,10 @@ Atlas unfolded_map(std::shared_ptr<const Surface> surface, const std::vector<Rem
     const int next = std::min(total, done + std::max(1, static_cast<int>(kStride * (left - done))));
     for (; done < next; ++done) map.remove(removals[done]);
     Atlas atlas = map.atlas();
-    const Folds before=find_folds(atlas);
     const RepairReport repaired = repair_folds(atlas, progress);
-    for (int v : repaired.moved) atlas.reassign(v);
-    const Folds after=find_folds(atlas); bool ok=true;
     if (done == total) return atlas;
-    ok=map.load(atlas, repaired.moved);
-    if (getenv("VM")) printf("station %d of %d: folds %zu+%zu -> %zu+%zu %d\n", done, total, before.faces.size(), before.vertices.size(), after.faces.size(), after.vertices.size(), ok);
+    for (int v : repaired.moved) atlas.reassign(v);
+    map.load(atlas, repaired.moved);
     progress.report("unfold", double(done) / total);
   }
 }

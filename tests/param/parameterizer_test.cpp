@@ -4,25 +4,40 @@
 #include "mesh/error.h"
 #include "mesh/parallel.h"
 #include "mesh/shapes.h"
+#include "param/distortion_energy.h"
 #include "param/folds.h"
 #include "param/global_system.h"
+#include "param/lower_distortion.h"
 #include "param/maps_smoothing.h"
 #include "param/parameterize.h"
 #include "param/refine.h"
 #include "param/relax_corners.h"
 #include "param/simplify.h"
+#include "param/smooth.h"
+#include "param/stretch.h"
+#include "param/valid_map.h"
 #include "param/weights.h"
 
 using namespace gsp;
 
 namespace {
 
-Atlas simplified(Mesh mesh, int base_vertices) {
+SimplifyResult simplification(Mesh mesh, int base_vertices) {
   split_boundary_chords(mesh);
   ParameterizeOptions options;
   options.base_vertices = base_vertices;
   Progress progress;
-  return simplify(std::make_shared<const Surface>(std::move(mesh)), options, progress).atlas;
+  return simplify(std::make_shared<const Surface>(std::move(mesh)), options, progress);
+}
+
+Atlas simplified(Mesh mesh, int base_vertices) { return simplification(std::move(mesh), base_vertices).atlas; }
+
+/// The global solution, its folds and all.
+void solve(Atlas& atlas, const EdgeWeights& weights) {
+  seat_boundary(atlas);
+  atlas.position = boundary_by_arc_length(atlas);
+  atlas.position = solve_global(atlas, weights, interior_vertices(atlas));
+  atlas.reassign_all();
 }
 
 /// The invariant of the exact transitions: whatever the positions, the signed areas sum to that of the base.
@@ -74,13 +89,11 @@ TEST_CASE("solving, reassigning, relaxing and refining never change the total ar
   for (Case& c : cases()) {
     INFO(c.name);
     Atlas atlas = simplified(c.mesh, c.base_vertices);
-    place_boundary(atlas);
-    CHECK(std::abs(area_excess(atlas)) < 1e-10);
     const auto weights = mean_value_weights(*atlas.surface);
     for (int round = 0; round < 3; ++round) {
-      solve_global(atlas, weights, 0.0);
+      solve(atlas, weights);
       CHECK(std::abs(area_excess(atlas)) < 1e-10);
-      relax_corners(atlas, weights, 0.45);
+      relax_corners(atlas, weights, 0.45, Folding::Allowed);
       CHECK(atlas.broken_faces() == 0);
       CHECK(std::abs(area_excess(atlas)) < 1e-10);
     }
@@ -97,14 +110,14 @@ TEST_CASE("solving, reassigning, relaxing and refining never change the total ar
 TEST_CASE("moving vertices to other charts leaves the solution of the global system where it is") {
   Atlas atlas = simplified(shapes::sphere(3), 8);
   const auto weights = mean_value_weights(*atlas.surface);
-  solve_global(atlas, weights, 0.0);
+  solve(atlas, weights);
   Atlas moved = atlas;
   for (int v = 0; v < moved.surface->mesh.vertex_count(); v += 3) {
     if (moved.corner[v] >= 0) continue;
     const int h = 3 * moved.patch[v] + v % 3;
     moved.change_chart(v, moved.base.twins[h] / 3, moved.base.across(h));
   }
-  solve_global(moved, weights, 0.0);
+  solve(moved, weights);
   for (int f = 0; f < atlas.surface->mesh.face_count(); ++f) {
     const auto a = atlas.face_corners(f, atlas.face_frame(f)), b = moved.face_corners(f, moved.face_frame(f));
     for (int k = 0; k < 3; ++k) CHECK(std::abs(std::abs(a[(k + 1) % 3] - a[k]) - std::abs(b[(k + 1) % 3] - b[k])) < 1e-9);
@@ -115,8 +128,7 @@ TEST_CASE("a lattice torus onto a lattice base keeps the exact flat map") {
   // Every vertex has valence 6 and every face is equilateral in the chart: affine maps solve the uniform system exactly,
   // and on the flat disc below mean value weights reproduce them too (Floater 2003).
   Atlas atlas = simplified(shapes::sector_disc(6, 4), 7);
-  place_boundary(atlas);
-  solve_global(atlas, mean_value_weights(*atlas.surface), 0.0);
+  solve(atlas, mean_value_weights(*atlas.surface));
   if (atlas.base.face_count() == 6 && atlas.corner[0] >= 0) {
     double least = 1e300, most = 0.0;
     for (int f = 0; f < atlas.surface->mesh.face_count(); ++f) {
@@ -125,6 +137,115 @@ TEST_CASE("a lattice torus onto a lattice base keeps the exact flat map") {
       most = std::max(most, chart_area(z[0], z[1], z[2]));
     }
     CHECK(most - least < 1e-9 * most);
+  }
+}
+
+TEST_CASE("every step from the unfolded map on is free of folds, and lowering the distortion lowers it") {
+  for (Case& c : cases()) {
+    INFO(c.name);
+    const SimplifyResult made = simplification(c.mesh, c.base_vertices);
+    Progress progress;
+    Atlas atlas = unfolded_map(made.atlas.surface, made.removals, progress);
+    REQUIRE(find_folds(atlas).none());
+    CHECK(atlas.broken_faces() == 0);
+    CHECK(std::abs(area_excess(atlas)) < 1e-10);
+    const auto weights = mean_value_weights(*atlas.surface);
+    Atlas smooth = atlas;
+    solve_without_folds(smooth, weights, progress);
+    CHECK(find_folds(smooth).none());
+    CHECK(smooth.broken_faces() == 0);
+    relax_corners(smooth, weights, 0.45, Folding::Refused);
+    CHECK(find_folds(smooth).none());
+    seat_boundary(atlas);
+    const double before = l2_stretch(atlas);
+    CHECK(lower_distortion(atlas, 60, progress));
+    CHECK(find_folds(atlas).none());
+    CHECK(atlas.broken_faces() == 0);
+    CHECK(l2_stretch(atlas) < before);
+  }
+}
+
+TEST_CASE("removals made again give the same map, and vertices moved by hand are taken over") {
+  const SimplifyResult first = simplification(shapes::torus(30, 12), 16);
+  ShrinkingMap map(first.atlas.surface);
+  for (const Removal& removal : first.removals) map.remove(removal);
+  Atlas again = map.atlas();
+  CHECK(again.base.vertices == first.atlas.base.vertices);
+  CHECK(again.patch == first.atlas.patch);
+  CHECK(again.position == first.atlas.position);
+  CHECK(again.transition == first.atlas.transition);
+  // A vertex drawn a little toward its neighbours' mean, where that folds nothing.
+  std::vector<int> moved;
+  for (int v = 0; v < again.surface->mesh.vertex_count() && moved.size() < 20; v += 5) {
+    if (again.corner[v] >= 0 || local_map(again, v) != LocalMap::Injective) continue;
+    Complex mean = 0.0;
+    double count = 0.0;
+    again.surface->for_each_neighbour(v, [&](int w, int edge, bool forward) {
+      mean += again.towards(edge, forward).apply(again.position[w]);
+      count += 1.0;
+    });
+    const Complex before = again.position[v];
+    again.position[v] = 0.5 * (before + mean / count);
+    if (local_map(again, v) != LocalMap::Injective || !again.reassign(v)) {
+      again.position[v] = before;
+      continue;
+    }
+    moved.push_back(v);
+  }
+  REQUIRE(moved.size() > 3);
+  REQUIRE(map.load(again, moved));
+  const Atlas loaded = map.atlas();
+  CHECK(loaded.patch == again.patch);
+  CHECK(loaded.transition == again.transition);
+  for (std::size_t v = 0; v < loaded.position.size(); ++v) CHECK(std::abs(loaded.position[v] - again.position[v]) < 1e-12);
+}
+
+TEST_CASE("the distortion energy is least for the identity, and its gradient is its slope") {
+  Atlas flat = simplified(shapes::sector_disc(6, 4), 7);
+  solve(flat, mean_value_weights(*flat.surface));
+  REQUIRE(find_folds(flat).none());
+  std::vector<int> vertices, faces;
+  const std::vector<char> interior = interior_vertices(flat);
+  for (int v = 0; v < flat.surface->mesh.vertex_count(); ++v)
+    if (interior[v]) vertices.push_back(v);
+  for (int f = 0; f < flat.surface->mesh.face_count(); ++f) faces.push_back(f);
+  const DistortionEnergy energy(flat, vertices, faces, 0.7);
+  std::vector<double> x = energy.positions(flat), gradient(x.size()), other(x.size());
+  for (double epsilon : {0.0, 0.3}) {
+    const double here = energy.evaluate(x.data(), gradient.data(), epsilon);
+    if (epsilon == 0.0) CHECK(here > 1.7 - 1e-9);  // 1 + λ for an isometry
+    for (std::size_t i = 0; i < x.size(); i += 7) {
+      constexpr double kStep = 1e-6;
+      std::vector<double> above = x, below = x;
+      above[i] += kStep;
+      below[i] -= kStep;
+      const double slope = (energy.evaluate(above.data(), other.data(), epsilon) -
+                            energy.evaluate(below.data(), other.data(), epsilon)) / (2.0 * kStep);
+      CHECK(slope == Approx(gradient[i]).margin(1e-6));
+    }
+  }
+}
+
+TEST_CASE("splitting long edges leaves none, keeps the surface and puts new vertices last") {
+  const Mesh before = shapes::grid(3, 2);
+  Mesh mesh = before;
+  CHECK(split_long_edges(mesh, 0.3) > 0);
+  const Surface surface(mesh);
+  for (int e = 0; e < surface.edge_count(); ++e) {
+    const int h = surface.edge_halfedge[e];
+    CHECK((mesh.positions[surface.halfedges.to(h)] - mesh.positions[surface.halfedges.from(h)]).norm() <= 0.3);
+  }
+  CHECK(surface_area(mesh) == Approx(surface_area(before)));
+  for (int v = 0; v < before.vertex_count(); ++v) CHECK(mesh.positions[v] == before.positions[v]);
+}
+
+TEST_CASE("both objectives give valid maps") {
+  for (Objective objective : {Objective::Distortion, Objective::MeanValue}) {
+    ParameterizeOptions options;
+    options.base_vertices = 16;
+    options.objective = objective;
+    Progress progress;
+    CHECK(check_map(parameterize(shapes::torus(60, 24), options, progress).map).valid());
   }
 }
 
