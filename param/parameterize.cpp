@@ -31,9 +31,10 @@ constexpr int kStepsPerRound = 100;          // of lowering the distortion betwe
 constexpr int kGuardedRounds = 3;
 constexpr int kPatience = 2;                // rounds before the paper's iteration can be given up,
 constexpr double kHopeless = 2e-4;          // where a larger share of faces is folded
-constexpr int kMostRefinements = 4;         // of the surface around folds that do not come free
+constexpr int kRings = 16;                    // of the discs that are untangled in the end
+constexpr int kMostRefinements = 2;         // of the surface around folds that do not come free
 constexpr int kAutomaticShare = 64;         // vertices per base vertex, of which the automatic stop falls short or not
-constexpr double kLongestEdge = 0.25;       // of the edge of an equilateral patch of mean area
+constexpr double kLongestEdge[] = {0.25, 0.125, 0.0625};  // of the edge of an equilateral patch of mean area
 
 void check_options(const ParameterizeOptions& options) {
   if (options.base_vertices != 0 && options.base_vertices < 4)
@@ -83,28 +84,34 @@ void refine_folds(Atlas& atlas, const Folds& folds) {
 
 /// Takes the folds out of a map, refining the surface around those that do not come free at once.
 Folds unfold(Atlas& atlas, int refinements, Progress& progress) {
-  repair_folds(atlas, progress);
+  repair_folds(atlas, kRings, progress);
   Folds folds = find_folds(atlas);
   for (int i = 0; i < refinements && !folds.none(); ++i) {
     refine_folds(atlas, folds);
-    repair_folds(atlas, progress);
+    repair_folds(atlas, kRings, progress);
     folds = find_folds(atlas);
   }
   return folds;
 }
 
-/// The initial map without its folds. Throws Error(InvalidMap) where it keeps some.
-Atlas injective_start(const SimplifyResult& simplified, Progress& progress) {
+/// The initial map without its folds; which it keeps, where it keeps some, is told by `folds`.
+Atlas injective_start(const SimplifyResult& simplified, Folds& folds, Progress& progress) {
   Atlas atlas = unfolded_map(simplified.atlas.surface, simplified.removals, progress);
   refine_at_corners(atlas);
   seat_boundary(atlas);
-  const Folds folds = unfold(atlas, kMostRefinements, progress);
-  if (!folds.none()) give_up(folds);
+  folds = unfold(atlas, kMostRefinements, progress);
+  if (!folds.none()) return atlas;
   atlas.reassign_all();
   const int added = atlas.surface->mesh.vertex_count() - simplified.atlas.surface->mesh.vertex_count();
   if (added > 0) progress.note(std::to_string(added) + " vertices were added where the map needs more freedom");
   return atlas;
 }
+
+/// What the methods on one base complex share.
+struct Start {
+  SimplifyResult simplified;
+  Atlas injective;  ///< without folds, for Method::Gsp alone
+};
 
 /// Keeps the round of least stretch.
 class Best {
@@ -149,14 +156,14 @@ Atlas solve_and_relax(Atlas atlas, const ParameterizeOptions& options, Parameter
 }
 
 /// The paper's solution. Where its folds do not come free it is approached over maps that have none.
-Atlas mean_value_map(const SimplifyResult& simplified, const ParameterizeOptions& options, ParameterizeResult& result,
+Atlas mean_value_map(const Start& start, const ParameterizeOptions& options, ParameterizeResult& result,
                      Progress& progress) {
-  Atlas atlas = solve_and_relax(simplified.atlas, options, result, progress);
+  Atlas atlas = solve_and_relax(start.simplified.atlas, options, result, progress);
   if (unfold(atlas, 0, progress).none()) {
     atlas.reassign_all();
     return atlas;
   }
-  atlas = injective_start(simplified, progress);
+  atlas = start.injective;
   const auto weights = mean_value_weights(*atlas.surface);
   Best best;
   for (int round = 0; round < kGuardedRounds; ++round) {
@@ -170,10 +177,10 @@ Atlas mean_value_map(const SimplifyResult& simplified, const ParameterizeOptions
 }
 
 /// The map of least distortion: from the initial map without its folds, lowering the energy and relaxing the corners in turn.
-Atlas low_distortion_map(const SimplifyResult& simplified, const ParameterizeOptions& options,
+Atlas low_distortion_map(const Start& start, const ParameterizeOptions& options,
                          ParameterizeResult& result, Progress& progress) {
-  result.flips_before_repair = static_cast<int>(find_folds(simplified.atlas).faces.size());
-  Atlas atlas = injective_start(simplified, progress);
+  result.flips_before_repair = static_cast<int>(find_folds(start.simplified.atlas).faces.size());
+  Atlas atlas = start.injective;
   const auto weights = mean_value_weights(*atlas.surface);
   Best best;
   for (int round = 0; round <= options.relaxations; ++round) {
@@ -187,13 +194,13 @@ Atlas low_distortion_map(const SimplifyResult& simplified, const ParameterizeOpt
 }
 
 /// Makes the map without folds by the method and objective asked for, and counts how its corners moved.
-Atlas smooth_map(const SimplifyResult& simplified, const ParameterizeOptions& options, ParameterizeResult& result,
+Atlas smooth_map(const Start& start, const ParameterizeOptions& options, ParameterizeResult& result,
                  Progress& progress) {
   const Atlas atlas = options.objective == Objective::MeanValue
-                          ? mean_value_map(simplified, options, result, progress)
-                          : low_distortion_map(simplified, options, result, progress);
+                          ? mean_value_map(start, options, result, progress)
+                          : low_distortion_map(start, options, result, progress);
   for (int b = 0; b < atlas.base.vertex_count(); ++b)
-    result.corners_moved += atlas.base.vertices[b] != simplified.atlas.base.vertices[b];
+    result.corners_moved += atlas.base.vertices[b] != start.simplified.atlas.base.vertices[b];
   return atlas;
 }
 
@@ -206,10 +213,33 @@ double patch_edge(const Mesh& mesh, int base_vertices) {
   return std::sqrt(area / patches / kChartArea);
 }
 
-ParameterizeResult finish(const SimplifyResult& simplified, Method method, const ParameterizeOptions& options,
+/// Simplifies the surface, finer where a coarser one leaves the map too little freedom to be free of folds.
+/// Throws Error(InvalidMap) where the finest is too coarse.
+Start make_start(const Mesh& mesh, bool injective, const ParameterizeOptions& options, Progress& progress) {
+  Mesh refined = mesh;
+  int added = split_boundary_chords(refined);
+  if (added > 0) progress.note(std::to_string(added) + " interior edges between boundary vertices were split");
+  const double patch = patch_edge(refined, options.base_vertices);
+  Folds folds;
+  for (double longest : kLongestEdge) {
+    added = split_long_edges(refined, longest * patch);
+    if (added > 0) progress.note(std::to_string(added) + " vertices were added on edges that are long for the patches");
+    Start start{simplify(std::make_shared<const Surface>(refined), options, progress), {}};
+    const int left = start.simplified.atlas.base.vertex_count();
+    if (options.base_vertices > 0 && left > options.base_vertices)
+      progress.note("no further vertex can be removed: the base has " + std::to_string(left) + " vertices instead of " +
+                    std::to_string(options.base_vertices));
+    if (injective) start.injective = injective_start(start.simplified, folds, progress);
+    if (folds.none()) return start;
+    progress.note(std::to_string(folds.faces.size()) + " faces stay folded: trying again on a finer surface");
+  }
+  give_up(folds);
+}
+
+ParameterizeResult finish(const Start& start, Method method, const ParameterizeOptions& options,
                           Progress& progress) {
   ParameterizeResult result;
-  Atlas atlas = method == Method::Gsp ? smooth_map(simplified, options, result, progress) : simplified.atlas;
+  Atlas atlas = method == Method::Gsp ? smooth_map(start, options, result, progress) : start.simplified.atlas;
   if (method == Method::MapsSmoothed) smooth_by_loop(atlas, progress);
   result.map = atlas.finish(provenance(options, method, atlas));
   if (method == Method::Gsp) {
@@ -244,20 +274,12 @@ std::vector<ParameterizeResult> parameterize_all(const Mesh& mesh, const std::ve
                                                  const ParameterizeOptions& options, Progress& progress) {
   check_options(options);
   require_parameterizable(mesh);
-  Mesh refined = mesh;
-  int added = split_boundary_chords(refined);
-  if (added > 0) progress.note(std::to_string(added) + " interior edges between boundary vertices were split");
-  added = split_long_edges(refined, kLongestEdge * patch_edge(refined, options.base_vertices));
-  if (added > 0) progress.note(std::to_string(added) + " vertices were added on edges that are long for the patches");
-  SimplifyResult simplified = simplify(std::make_shared<const Surface>(std::move(refined)), options, progress);
-  if (simplified.atlas.base.vertex_count() > options.base_vertices && options.base_vertices > 0)
-    progress.note("no further vertex can be removed: the base has " +
-                  std::to_string(simplified.atlas.base.vertex_count()) + " vertices instead of " +
-                  std::to_string(options.base_vertices));
+  const bool injective = std::find(methods.begin(), methods.end(), Method::Gsp) != methods.end();
+  const Start start = make_start(mesh, injective, options, progress);
   std::vector<ParameterizeResult> results;
   for (Method method : methods) {
-    results.push_back(finish(simplified, method, options, progress));
-    results.back().omega = simplified.omega;
+    results.push_back(finish(start, method, options, progress));
+    results.back().omega = start.simplified.omega;
   }
   return results;
 }

@@ -13,7 +13,7 @@ namespace gsp {
 namespace {
 
 constexpr double kAreaWeight = 0.02;
-constexpr int kRings[] = {1, 2, 4, 8};
+constexpr std::size_t kLargestDisc = 2000;  // vertices
 constexpr int kOuterSteps = 12;
 constexpr double kSharpening = 0.5;  // of ε, from one step to the next
 constexpr int kInnerSteps = 50;
@@ -60,14 +60,14 @@ bool drive_apart(const DistortionEnergy& energy, std::vector<double>& x) {
 
 class Repair {
  public:
-  Repair(Atlas& atlas, Progress& progress) : atlas_(atlas), surface_(*atlas.surface), progress_(progress) {}
+  Repair(Atlas& atlas, int most_rings, Progress& progress)
+      : atlas_(atlas), surface_(*atlas.surface), most_rings_(most_rings), progress_(progress) {}
 
   RepairReport run() {
     RepairReport report;
     Folds folds = find_folds(atlas_);
     report.flipped_before = static_cast<int>(folds.faces.size());
-    for (int rings : kRings) {
-      if (folds.none()) break;
+    for (int rings = 1; rings <= most_rings_ && !folds.none(); rings *= 2) {
       untangle_all(folds, rings, report);
       folds = find_folds(atlas_);
     }
@@ -130,7 +130,7 @@ class Repair {
     }
     std::sort(faces.begin(), faces.end());
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-    if (vertices.empty()) return;
+    if (vertices.empty() || vertices.size() > kLargestDisc) return;
     std::vector<Complex> before;
     for (int v : vertices) before.push_back(atlas_.position[v]);
     const DistortionEnergy energy(atlas_, vertices, faces, kAreaWeight);
@@ -155,11 +155,14 @@ class Repair {
 
   Atlas& atlas_;
   const Surface& surface_;
+  const int most_rings_;
   Progress& progress_;
 };
 
 }  // namespace
 
-RepairReport repair_folds(Atlas& atlas, Progress& progress) { return Repair(atlas, progress).run(); }
+RepairReport repair_folds(Atlas& atlas, int most_rings, Progress& progress) {
+  return Repair(atlas, most_rings, progress).run();
+}
 
 }  // namespace gsp

@@ -15,8 +15,9 @@ struct RepairReport {
 
 /// Untangles folded faces: in the discs around them, with their rims, the boundary and all corners held, minimises
 /// `DistortionEnergy` while ε is driven to zero (Garanzha et al. 2021). The rest of the map stays bit for bit. A disc that
-/// does not come free, or comes free wrongly wound, is left as it was, grown, and tried again up to a limit; so folds may
+/// does not come free, or comes free wrongly wound, is left as it was, grown to at most so many rings of vertices around the
+/// folds (and a number of vertices that bounds the time), and tried again; so folds may
 /// remain, and `find_folds` tells. Vertices keep their charts, which they may leave.
-RepairReport repair_folds(Atlas& atlas, Progress& progress);
+RepairReport repair_folds(Atlas& atlas, int most_rings, Progress& progress);
 
 }  // namespace gsp

@@ -11,6 +11,7 @@ namespace gsp {
 namespace {
 
 constexpr int kFewRings = 4;    // held around a fold where a shorter step could still do without
+constexpr int kRings = 4;     // of the discs that are untangled
 constexpr int kManyRings = 64;
 constexpr double kShortestStep = 1.0 / 16.0;
 constexpr int kMostSteps = 12;
@@ -68,7 +69,7 @@ class Approach {
     for (int rings = 1;; rings *= 2) {
       for (std::size_t v = 0; v < goal_.size(); ++v)
         trial.position[v] = atlas_.position[v] + share[v] * (goal_[v] - atlas_.position[v]);
-      repair_folds(trial, progress_);
+      repair_folds(trial, kRings, progress_);
       const Folds folds = find_folds(trial);
       if (folds.none()) break;
       if (rings > most_rings) return false;

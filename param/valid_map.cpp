@@ -8,6 +8,7 @@ namespace gsp {
 
 namespace {
 
+constexpr int kRings = 4;
 constexpr double kStride = 0.15;  // of the vertices left, from one station to the next
 
 }  // namespace
@@ -21,7 +22,7 @@ Atlas unfolded_map(std::shared_ptr<const Surface> surface, const std::vector<Rem
     const int next = std::min(total, done + std::max(1, static_cast<int>(kStride * (left - done))));
     for (; done < next; ++done) map.remove(removals[done]);
     Atlas atlas = map.atlas();
-    const RepairReport repaired = repair_folds(atlas, progress);
+    const RepairReport repaired = repair_folds(atlas, kRings, progress);
     if (done == total) return atlas;
     for (int v : repaired.moved) atlas.reassign(v);
     map.load(atlas, repaired.moved);
