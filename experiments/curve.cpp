@@ -1,7 +1,10 @@
 #include "experiments/curve.h"
 
+#include <algorithm>
+
 #include "experiments/anchor_curves.h"
 #include "experiments/meter.h"
+#include "mesh/parallel.h"
 
 namespace gsp {
 
@@ -16,12 +19,19 @@ std::vector<CurvePoint> method_curve(const ParameterizeResult& result, const std
   const double remesh_error = meter.measure(semiregular.mesh(), 0, options.samples, silent).rms;
   const Bytes stream = encode(semiregular, options.encode, progress);
 
-  std::vector<CurvePoint> points;
   const std::vector<std::size_t> budgets = byte_budgets(options.budgets, header_bytes(stream), stream.size());
-  for (std::size_t bytes : budgets) {
-    progress.report(method + ": decode and measure",
-                    static_cast<double>(points.size()) / static_cast<double>(budgets.size()));
-    CurvePoint point = meter.measure(decode(stream, bytes).mesh(), bytes, options.samples, silent);
+  std::vector<CurvePoint> points(budgets.size());
+  // Decoding has one thread, so prefixes are decoded side by side, as many at a time as there are threads.
+  const std::size_t threads = static_cast<std::size_t>(thread_count());
+  for (std::size_t first = 0; first < budgets.size(); first += threads) {
+    progress.report(method + ": decode and measure", static_cast<double>(first) / static_cast<double>(budgets.size()));
+    parallel_for(std::min(threads, budgets.size() - first), 1, [&](std::size_t begin, std::size_t end) {
+      Progress unheard;
+      for (std::size_t i = first + begin; i < first + end; ++i)
+        points[i] = meter.measure(decode(stream, budgets[i]).mesh(), budgets[i], options.samples, unheard);
+    });
+  }
+  for (CurvePoint& point : points) {
     point.method = method;
     point.gamma = options.parameterize.gamma;
     point.mu = options.parameterize.mu;
@@ -31,7 +41,6 @@ std::vector<CurvePoint> method_curve(const ParameterizeResult& result, const std
     point.wavelet = wavelet_name(options.encode.wavelet);
     point.coder = "gsp";
     point.remesh_error = remesh_error;
-    points.push_back(point);
   }
   return points;
 }

@@ -32,6 +32,7 @@ constexpr int kGuardedRounds = 3;
 constexpr int kPatience = 2;                // rounds before the paper's iteration can be given up,
 constexpr double kHopeless = 2e-4;          // where a larger share of faces is folded
 constexpr int kRings = 16;                    // of the discs that are untangled in the end
+constexpr std::size_t kTooManyFolds = 200;    // to be worth refining around
 constexpr int kMostRefinements = 2;         // of the surface around folds that do not come free
 constexpr int kAutomaticShare = 64;         // vertices per base vertex, of which the automatic stop falls short or not
 constexpr double kLongestEdge[] = {0.25, 0.125, 0.0625};  // of the edge of an equilateral patch of mean area
@@ -86,7 +87,7 @@ void refine_folds(Atlas& atlas, const Folds& folds) {
 Folds unfold(Atlas& atlas, int refinements, Progress& progress) {
   repair_folds(atlas, kRings, progress);
   Folds folds = find_folds(atlas);
-  for (int i = 0; i < refinements && !folds.none(); ++i) {
+  for (int i = 0; i < refinements && !folds.none() && folds.faces.size() < kTooManyFolds; ++i) {
     refine_folds(atlas, folds);
     repair_folds(atlas, kRings, progress);
     folds = find_folds(atlas);
