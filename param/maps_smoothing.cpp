@@ -10,6 +10,7 @@ namespace gsp {
 namespace {
 
 constexpr int kMostLevels = 8;
+constexpr double kRounding = 1e-9;
 constexpr int kLongestWalk = 4096;
 
 /// z -> turn·z + shift, a rigid motion of the plane.
@@ -200,6 +201,8 @@ void SmoothedDomain::move(Atlas& atlas, int vertex) const {
     i = there[1];
     j = there[2];
   }
+  // Around folds of the domain no triangle may hold the target: a position beyond one could lie anywhere.
+  if (best < -kRounding) return;
   if (!best_change.is_identity() || best_face != atlas.patch[vertex]) atlas.change_chart(vertex, best_face, best_change);
   atlas.position[vertex] = best_position;
 }
