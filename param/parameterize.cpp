@@ -33,6 +33,7 @@ constexpr int kPatience = 2;                // rounds before the paper's iterati
 constexpr double kHopeless = 2e-4;          // where a larger share of faces is folded
 constexpr int kRings = 16;                    // of the discs that are untangled in the end
 constexpr std::size_t kTooManyFolds = 200;    // to be worth refining around
+constexpr int kMostGrowth = 4;                // of the surface by splitting long edges
 constexpr int kMostRefinements = 2;         // of the surface around folds that do not come free
 constexpr int kAutomaticShare = 64;         // vertices per base vertex, of which the automatic stop falls short or not
 constexpr double kLongestEdge[] = {0.25, 0.125, 0.0625};  // of the edge of an equilateral patch of mean area
@@ -225,6 +226,7 @@ Start make_start(const Mesh& mesh, bool injective, const ParameterizeOptions& op
   for (double longest : kLongestEdge) {
     added = split_long_edges(refined, longest * patch);
     if (added > 0) progress.note(std::to_string(added) + " vertices were added on edges that are long for the patches");
+    if (!folds.none() && refined.vertex_count() > kMostGrowth * mesh.vertex_count()) break;
     Start start{simplify(std::make_shared<const Surface>(refined), options, progress), {}};
     const int left = start.simplified.atlas.base.vertex_count();
     if (options.base_vertices > 0 && left > options.base_vertices)

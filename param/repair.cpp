@@ -13,7 +13,7 @@ namespace gsp {
 namespace {
 
 constexpr double kAreaWeight = 0.02;
-constexpr std::size_t kLargestDisc = 1000;  // vertices
+constexpr std::size_t kLargestDisc = 500;  // vertices
 constexpr int kOuterSteps = 12;
 constexpr double kSharpening = 0.5;  // of ε, from one step to the next
 constexpr double kGain = 0.9;  // of the least determinant, below which a step has gained nothing;
