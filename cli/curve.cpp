@@ -6,6 +6,7 @@
 
 #include "cli/options.h"
 #include "cli/report.h"
+#include "experiments/cell_options.h"
 #include "experiments/curve_job.h"
 
 namespace gsp::cli {
@@ -75,7 +76,7 @@ void add_curve(CLI::App& app, Context& context) {
   auto options = std::make_shared<Options>();
   command.arguments("MESH", options->meshes, "surfaces, or folders of them: PLY, OBJ, OFF, STL");
   command.output("DIR", options->output, "folder for curve.csv and the figures");
-  command.choices("--methods", options->methods, method_words(), "maps to compare on one base complex");
+  command.choices("--methods", options->methods, map_method_words(), "maps to compare on one base complex");
   command.parameterize_options(options->curve.parameterize);
   command.level_option(options->curve.remesh);
   command.encode_options(options->wavelet, options->curve.encode);

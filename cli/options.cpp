@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "experiments/cell_options.h"
+
 namespace gsp::cli {
 
 namespace {
-
-constexpr Method kMethods[] = {Method::Gsp, Method::Maps, Method::MapsSmoothed};
 
 template <class T>
 bool parse(const std::string& text, T& value) {
@@ -45,6 +45,12 @@ void add_bounded(CLI::App& app, const std::string& name, T& value, T low, T high
   app.add_option(name, value, fmt::format("{} [{}; {}]", text, value, range))
       ->check([=](const std::string& given) { return refusal(given, low, high, range); })
       ->option_text(std::is_floating_point_v<T> ? "X" : "N");
+}
+
+// The option that sets an axis of a sweep.
+std::string option_of(std::string axis) {
+  std::replace(axis.begin(), axis.end(), '_', '-');
+  return "--" + axis;
 }
 
 }  // namespace
@@ -138,15 +144,28 @@ void Command::on_run(std::function<int()> action) {
   app_->callback([&context = context_, action = std::move(action)] { context.action = action; });
 }
 
+void Command::axis_integer(const std::string& name, int& value, const std::string& text) {
+  const Axis& bounds = axis(name);
+  integer(option_of(name), value, static_cast<int>(bounds.low), static_cast<int>(bounds.high), text);
+}
+
+void Command::axis_integer_or_auto(const std::string& name, int& value, int automatic, const std::string& text) {
+  const Axis& bounds = axis(name);
+  integer_or_auto(option_of(name), value, automatic, static_cast<int>(bounds.low), static_cast<int>(bounds.high), text);
+}
+
+void Command::axis_number(const std::string& name, double& value, const std::string& text) {
+  const Axis& bounds = axis(name);
+  number(option_of(name), value, bounds.low, bounds.high, text);
+}
+
 void Command::parameterize_options(ParameterizeOptions& options) {
-  constexpr double kMostWeight = 1e6;
-  constexpr int kMostRelaxations = 1000;
-  integer_or_auto("--base-vertices", options.base_vertices, 0, 4, std::numeric_limits<int>::max(),
-                  "base vertices to stop at; auto stops before metric distortion dominates the cost");
-  number("--gamma", options.gamma, 0.0, kMostWeight, "weight of triangle shape in the cost");
-  number("--mu", options.mu, 0.0, kMostWeight, "weight of area dispersion in the cost");
-  integer("--relaxations", options.relaxations, 0, kMostRelaxations, "corner relaxations between solves at most");
-  const std::vector<std::string> objectives{objective_name(Objective::Distortion), objective_name(Objective::MeanValue)};
+  axis_integer_or_auto("base_vertices", options.base_vertices, 0,
+                       "base vertices to stop at; auto stops before metric distortion dominates the cost");
+  axis_number("gamma", options.gamma, "weight of triangle shape in the cost");
+  axis_number("mu", options.mu, "weight of area dispersion in the cost");
+  axis_integer("relaxations", options.relaxations, "corner relaxations between solves at most");
+  const std::vector<std::string> objectives = axis("objective").words;
   app_->add_option_function<std::string>(
           "--objective",
           [&options, objectives](const std::string& word) {
@@ -159,41 +178,27 @@ void Command::parameterize_options(ParameterizeOptions& options) {
 }
 
 void Command::level_option(RemeshOptions& options) {
-  constexpr int kFinest = 10;
-  integer_or_auto("--level", options.level, RemeshOptions::kAutoLevel, 0, kFinest,
-                  "quadrisections of the base; auto is the first level with as many faces as the input");
+  axis_integer_or_auto("level", options.level, RemeshOptions::kAutoLevel,
+                       "quadrisections of the base; auto is the first level with as many faces as the input");
 }
 
 void Command::encode_options(std::string& wavelet, EncodeOptions& options) {
-  std::vector<std::string> wavelets;
-  for (Wavelet w : kWavelets) wavelets.emplace_back(wavelet_name(w));
-  choice("--wavelet", wavelet, wavelets, "wavelet transform");
-  integer("--precision-bits", options.precision_bits, 8, 24,
-          "bits of the finest step relative to the bounding box: where the whole stream ends");
+  choice("--wavelet", wavelet, axis("wavelet").words, "wavelet transform");
+  axis_integer("precision_bits", options.precision_bits,
+               "bits of the finest step relative to the bounding box: where the whole stream ends");
+  const std::vector<std::string> ratios = axis("tangential_ratio").words;
   app_->add_option("--tangential-ratio", options.tangential_ratio,
-                   fmt::format("step of tangential over normal components [{}; 1, 2, 4, 8]", options.tangential_ratio))
-      ->check([](const std::string& given) {
-        return refusal(given, {"1", "2", "4", "8"});
-      })
+                   fmt::format("step of tangential over normal components [{}; {}]", options.tangential_ratio,
+                               fmt::join(ratios, ", ")))
+      ->check([ratios](const std::string& given) { return refusal(given, ratios); })
       ->option_text("N");
 }
 
 void Command::sampling_options(std::size_t& samples, std::uint64_t& seed) {
-  constexpr std::size_t kFewest = 1000, kMost = 1'000'000'000;
-  size("--samples", samples, kFewest, kMost, "samples per direction");
+  const Axis& bounds = axis("samples");
+  size("--samples", samples, static_cast<std::size_t>(bounds.low), static_cast<std::size_t>(bounds.high),
+       "samples per direction");
   size("--seed", seed, 0, std::numeric_limits<std::uint64_t>::max(), "seed of the samples");
-}
-
-std::vector<std::string> method_words() {
-  std::vector<std::string> words;
-  for (Method method : kMethods) words.emplace_back(method_name(method));
-  return words;
-}
-
-Method method_of(const std::string& word) {
-  for (Method method : kMethods)
-    if (word == method_name(method)) return method;
-  throw Error(Cause::BadOption, "unknown method " + word);
 }
 
 }  // namespace gsp::cli

@@ -54,12 +54,13 @@ class Command {
   void sampling_options(std::size_t& samples, std::uint64_t& seed);
 
  private:
+  // Options with the bounds of the axis of that name.
+  void axis_integer(const std::string& name, int& value, const std::string& text);
+  void axis_integer_or_auto(const std::string& name, int& value, int automatic, const std::string& text);
+  void axis_number(const std::string& name, double& value, const std::string& text);
+
   CLI::App* app_;
   Context& context_;
 };
-
-/// The words of --method, and the method that one stands for.
-std::vector<std::string> method_words();
-Method method_of(const std::string& word);
 
 }  // namespace gsp::cli

@@ -6,6 +6,7 @@
 #include "cli/check_report.h"
 #include "cli/options.h"
 #include "cli/report.h"
+#include "experiments/cell_options.h"
 #include "mesh/io.h"
 #include "param/param_file.h"
 
@@ -55,7 +56,7 @@ void add_parameterize(CLI::App& app, Context& context) {
   auto options = std::make_shared<Options>();
   command.argument("MESH", options->mesh, "surface: PLY, OBJ, OFF or STL");
   command.output("MAP", options->output, "the map, *.param.ply");
-  command.choice("--method", options->method, method_words(), "the paper's map, or a baseline on the same base");
+  command.choice("--method", options->method, map_method_words(), "the paper's map, or a baseline on the same base");
   command.parameterize_options(options->parameterize);
   command.optional_file("--omega-csv", options->omega_csv, "also write the cost of every vertex removal (figure 5d)");
   command.flag("--check", options->check, "check the map face by face; exit status 1 where it is not valid");

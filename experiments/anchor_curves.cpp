@@ -16,8 +16,7 @@ namespace {
 constexpr std::size_t kSamplesToChoose = 20000;
 constexpr int kFewestBits = 7, kMostBits = 12;  // of decimate-draco
 
-CurvePoint named(CurvePoint point, const char* method, int quantization_bits) {
-  point.method = method;
+CurvePoint named(CurvePoint point, int quantization_bits) {
   point.coder = "draco-qp" + std::to_string(quantization_bits);
   return point;
 }
@@ -73,7 +72,7 @@ std::vector<CurvePoint> draco_curve(const Meter& meter, std::size_t samples, Pro
   for (int bits = kFirst; bits <= kLast; ++bits) {
     progress.report("Draco on the input", static_cast<double>(bits - kFirst) / (kLast - kFirst + 1));
     const AnchorPoint anchor = draco_round_trip(meter.mesh(), bits);
-    points.push_back(named(meter.measure(anchor.decoded, anchor.bytes, samples, silent), "draco", bits));
+    points.push_back(named(meter.measure(anchor.decoded, anchor.bytes, samples, silent), bits));
   }
   return points;
 }
@@ -94,8 +93,7 @@ std::vector<CurvePoint> decimate_draco_curve(const Meter& meter, std::size_t sam
     progress.report("decimate, then Draco: measure",
                     static_cast<double>(points.size()) / static_cast<double>(kept.size()));
     Progress silent;
-    points.push_back(named(meter.measure(anchor.decoded, anchor.bytes, samples, silent), "decimate-draco",
-                           anchor.quantization_bits));
+    points.push_back(named(meter.measure(anchor.decoded, anchor.bytes, samples, silent), anchor.quantization_bits));
   }
   return points;
 }

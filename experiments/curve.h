@@ -29,6 +29,7 @@ struct CurvePoint {
   double standard_error_db = 0.0;
   double remesh_error = 0.0;  ///< ceiling of the method's curve; 0 for the anchors
   std::uint64_t seed = 0;
+  std::string options;  ///< those without a column of their own, as "name=value name=value"
 };
 
 /// Everything measured on one model.
@@ -55,9 +56,5 @@ struct CurveOptions {
 /// Throws what its stages throw.
 CurveRun rate_distortion_curve(const Mesh& mesh, const std::string& model, const CurveOptions& options,
                                Progress& progress);
-
-/// The budgets of a stream: those wanted (or 256, 512, 1024, ...) that hold its header and are shorter than it, and the
-/// whole of it last.
-std::vector<std::size_t> byte_budgets(const std::vector<std::size_t>& wanted, std::size_t header, std::size_t whole);
 
 }  // namespace gsp

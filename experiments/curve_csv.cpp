@@ -22,13 +22,13 @@ void write_curve_csv(const std::string& path, const std::vector<CurvePoint>& poi
   AtomicFile file(path);
   std::ostream& out = file.stream();
   out << "model,method,gamma,mu,base_vertices,base_faces,level,wavelet,coder,bytes,bits_per_vertex,faces,rms_forward,"
-         "rms_backward,rms,hausdorff,psnr_db,samples,standard_error_db,remesh_error,seed,version\n";
+         "rms_backward,rms,hausdorff,psnr_db,samples,standard_error_db,remesh_error,seed,version,options\n";
   for (const CurvePoint& p : points)
     out << fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{:.6g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.4f},{},{:.2g},{:.6g},{},{}\n",
+        "{},{},{},{},{},{},{},{},{},{},{:.6g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.4f},{},{:.2g},{:.6g},{},{},{}\n",
         field(p.model), p.method, p.gamma, p.mu, p.base_vertices, p.base_faces, p.level, p.wavelet, p.coder, p.bytes,
         p.bits_per_vertex, p.faces, p.rms_forward, p.rms_backward, p.rms, p.hausdorff, p.psnr_db, p.samples,
-        p.standard_error_db, p.remesh_error, p.seed, version());
+        p.standard_error_db, p.remesh_error, p.seed, version(), p.options);
   file.commit();
 }
 

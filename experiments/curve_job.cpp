@@ -55,15 +55,6 @@ void attempt(CurveSummary& summary, const std::function<void()>& step) {
   }
 }
 
-Progress prefixed(const std::string& model, Progress& progress) {
-  Progress inner([model, &progress](const std::string& stage, double fraction) {
-    progress.report(model + ": " + stage, fraction);
-    return true;
-  });
-  inner.on_note([model, &progress](const std::string& sentence) { progress.note(model + ": " + sentence); });
-  return inner;
-}
-
 class Job {
  public:
   Job(std::string folder, const CurveOptions& options, Progress& progress)
@@ -73,7 +64,7 @@ class Job {
 
   void add(const std::string& surface, const std::string& model) {
     const auto start = std::chrono::steady_clock::now();
-    Progress progress = prefixed(model, progress_);
+    Progress progress = progress_.within(model);
     CurveRun run;
     CurveSummary summary;
     attempt(summary, [&] {

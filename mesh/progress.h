@@ -26,6 +26,15 @@ class Progress {
   void note(const std::string& sentence) {
     if (notes_) notes_(sentence);
   }
+  /// One that reports and remarks here, with a name put before: "horse: encode". Valid as long as this one.
+  Progress within(const std::string& name) {
+    Progress inner([this, name](const std::string& stage, double fraction) {
+      report(name + ": " + stage, fraction);
+      return true;
+    });
+    inner.on_note([this, name](const std::string& sentence) { note(name + ": " + sentence); });
+    return inner;
+  }
   void on_note(std::function<void(const std::string&)> notes) { notes_ = std::move(notes); }
 
  private:

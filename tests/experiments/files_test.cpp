@@ -7,6 +7,7 @@
 #include "experiments/curve_csv.h"
 #include "experiments/curve_job.h"
 #include "experiments/plot.h"
+#include "experiments/stages.h"
 #include "experiments/version.h"
 #include "temporary_folder.h"
 
@@ -28,6 +29,7 @@ CurvePoint sample_point(const std::string& model, const std::string& method, std
   point.bytes = bytes;
   point.psnr_db = psnr;
   point.remesh_error = method == "gsp" ? 1e-4 : 0.0;
+  point.options = "objective=distortion";
   return point;
 }
 

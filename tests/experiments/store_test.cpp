@@ -1,0 +1,123 @@
+#include "experiments/store.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "temporary_folder.h"
+
+using namespace gsp;
+
+namespace {
+
+StageResult result_of(StageKind kind, const std::string& key) {
+  StageResult result;
+  result.kind = kind;
+  result.key = key;
+  result.seconds = 1.5;
+  return result;
+}
+
+// Two cells of one model that share a map; nothing has run.
+Plan sample_plan(const std::string& recipe) {
+  Plan plan;
+  plan.recipe = recipe;
+  plan.models.push_back({.name = "torus", .source = "shape:torus", .surface_key = "s", .path = "artefacts/s.ply",
+                         .vertices = 100, .faces = 200, .cause = {}, .failure = {}});
+  for (Wavelet wavelet : {Wavelet::Loop, Wavelet::Butterfly}) {
+    PlannedCell cell{.model = "torus", .label = wavelet_name(wavelet), .options = {}, .keys = {}};
+    cell.options.encode.wavelet = wavelet;
+    cell.options.budgets = {512, 1024};
+    cell.keys = {{StageKind::Parameterize, "map"},
+                 {StageKind::Remesh, "remesh"},
+                 {StageKind::Encode, "encode-" + cell.label},
+                 {StageKind::Measure, "measure-" + cell.label}};
+    plan.cells.push_back(cell);
+  }
+  return plan;
+}
+
+std::vector<StageResult> shared_stages() {
+  StageResult map = result_of(StageKind::Parameterize, "map");
+  map.numbers = {{"base_vertices", 20}, {"base_faces", 36}};
+  map.artefacts = {{"map", "artefacts/m.param.ply"}};
+  StageResult remesh = result_of(StageKind::Remesh, "remesh");
+  remesh.numbers = {{"level", 3}, {"remesh_error", 1e-4}};
+  return {map, remesh};
+}
+
+StageResult measured(const std::string& key) {
+  StageResult result = result_of(StageKind::Measure, key);
+  for (std::size_t bytes : {512u, 2048u}) {
+    CurvePoint point;
+    point.bytes = bytes;
+    point.psnr_db = bytes == 512 ? 50.25 : std::numeric_limits<double>::infinity();
+    point.seed = 7;
+    result.points.push_back(point);
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a store gives back its cells: waiting, done with rows, failed with the cause") {
+  const TemporaryFolder folder;
+  Store store = Store::create(folder.path().string());
+  store.replace_plan(sample_plan("one"));
+  for (const StoredCell& cell : store.cells()) CHECK(cell.status == CellStatus::Waiting);
+
+  std::vector<StageResult> results = shared_stages();
+  results.push_back(result_of(StageKind::Encode, "encode-loop"));
+  results.push_back(measured("measure-loop"));
+  results.push_back(result_of(StageKind::Encode, "encode-butterfly"));
+  results.back().cause = "solver-failed";
+  results.back().failure = "the system is singular";
+  store.put(results);
+
+  const Store reader = Store::open(folder.path().string());
+  CHECK(reader.models().front().path == folder.file("artefacts/s.ply"));
+  const std::vector<StoredCell> cells = reader.cells("one");
+  REQUIRE(cells.size() == 2);
+  CHECK(cells[0].status == CellStatus::Done);
+  CHECK(cells[0].artefact("map") == folder.file("artefacts/m.param.ply"));
+  CHECK(cells[0].artefact("stream").empty());
+  CHECK(*cells[0].number("base_faces") == 36);
+  CHECK_FALSE(cells[0].number("no such number"));
+  CHECK(cells[0].options.budgets == std::vector<std::size_t>{512, 1024});
+  const std::vector<CurvePoint> rows = cells[0].points();
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[0].model == "torus");
+  CHECK(rows[0].wavelet == "loop");
+  CHECK(rows[0].level == 3);
+  CHECK(rows[0].remesh_error == 1e-4);
+  CHECK(rows[0].seed == 7);
+  CHECK(std::isinf(rows[1].psnr_db));
+
+  CHECK(cells[1].status == CellStatus::Failed);
+  CHECK(cells[1].cause == "solver-failed");
+  CHECK(cells[1].points().empty());
+}
+
+TEST_CASE("recipes share results, and the latest swept one is the default") {
+  const TemporaryFolder folder;
+  Store store = Store::create(folder.path().string());
+  store.replace_plan(sample_plan("one"));
+  store.put(shared_stages());
+  store.replace_plan(sample_plan("two"));
+  CHECK(store.recipes() == std::vector<std::string>{"two", "one"});
+  CHECK(store.cells("two").front().stages.size() == 2);
+  store.replace_plan(sample_plan("one"));
+  CHECK(store.recipes().front() == "one");
+  CHECK_THROWS_AS(store.cells("three"), Error);
+  store.erase({"map"});
+  CHECK(store.cells("one").front().stages.size() == 1);
+}
+
+TEST_CASE("a folder without a store, a damaged one and one of another schema are refused") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_AS(Store::open(folder.path().string()), Error);
+  std::ofstream(folder.file("results.sqlite")) << std::string(5000, 'x');
+  CHECK_THROWS_AS(Store::open(folder.path().string()), Error);
+  CHECK_THROWS_AS(Store::create(folder.path().string()), Error);
+}
