@@ -30,5 +30,6 @@ void add_decode(CLI::App& app, Context& context);
 void add_distance(CLI::App& app, Context& context);
 void add_distortion(CLI::App& app, Context& context);
 void add_curve(CLI::App& app, Context& context);
+void add_picture(CLI::App& app, Context& context);
 
 }  // namespace gsp::cli

@@ -1,5 +1,3 @@
-#include "metrics/distortion.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,9 +7,8 @@
 #include "cli/check_report.h"
 #include "cli/options.h"
 #include "cli/report.h"
+#include "experiments/figures/map_measures.h"
 #include "mesh/atomic_file.h"
-#include "metrics/picture.h"
-#include "metrics/smoothness.h"
 #include "param/param_file.h"
 
 namespace gsp::cli {
@@ -40,44 +37,36 @@ Json edges(const Statistics& s, int count) {
   return report;
 }
 
-void write_csv(const std::string& path, const std::vector<PictureColumn>& columns) {
+void write_csv(const std::string& path, const std::vector<MapMeasure>& measures) {
   AtomicFile file(path);
   file.stream() << "face";
-  for (const PictureColumn& column : columns) file.stream() << ',' << column.name;
+  for (const MapMeasure& measure : measures) file.stream() << ',' << measure.column.name;
   file.stream() << '\n';
-  for (std::size_t f = 0; f < columns.front().values.size(); ++f) {
+  for (std::size_t f = 0; f < measures.front().column.values.size(); ++f) {
     file.stream() << f;
-    for (const PictureColumn& column : columns) file.stream() << fmt::format(",{:.9g}", column.values[f]);
+    for (const MapMeasure& measure : measures) file.stream() << fmt::format(",{:.9g}", measure.column.values[f]);
     file.stream() << '\n';
   }
   file.commit();
 }
 
-/// The chosen measure first, since that is the one that colours; red from its 95% percentile on.
-void write_picture(const Options& options, const Parameterization& map, std::vector<PictureColumn> columns,
-                   const Distortion& d, const Smoothness& s) {
-  const auto chosen = std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.name == options.colour; });
-  std::rotate(columns.begin(), chosen, chosen + 1);
-  const ColourScale scale = options.colour == "anisotropy"   ? ColourScale{1.0, d.anisotropy.p95}
-                            : options.colour == "area"       ? ColourScale{1.0, d.area.p95}
-                            : options.colour == "stretch_l2" ? ColourScale{1.0, d.stretch_l2.p95}
-                            : options.colour == "sorkine"    ? ColourScale{1.0, d.sorkine.p95}
-                                                             : ColourScale{0.0, s.all.p95};
-  write_face_picture(options.picture, map.surface, columns, scale);
+/// The chosen measure first, since that is the one that colours.
+void write_picture(const Options& options, const Mesh& surface, std::vector<MapMeasure> measures) {
+  const auto chosen =
+      std::find_if(measures.begin(), measures.end(), [&](const auto& m) { return m.column.name == options.colour; });
+  std::rotate(measures.begin(), chosen, chosen + 1);
+  std::vector<PictureColumn> columns;
+  for (MapMeasure& measure : measures) columns.push_back(std::move(measure.column));
+  write_face_picture(options.picture, surface, columns, measures.front().scale);
 }
 
 int run_distortion(const Options& options, Context& context) {
   const Parameterization map = read_parameterization(options.map);
   const Distortion d = distortion(map);
   const Smoothness s = smoothness(map);
-  FaceDistortion faces = face_distortion(map);
-  const std::vector<PictureColumn> columns = {{"anisotropy", std::move(faces.anisotropy)},
-                                              {"area", std::move(faces.area)},
-                                              {"stretch_l2", std::move(faces.stretch_l2)},
-                                              {"sorkine", std::move(faces.sorkine)},
-                                              {"smoothness", s.faces}};
-  if (!options.per_face.empty()) write_csv(options.per_face, columns);
-  if (!options.picture.empty()) write_picture(options, map, columns, d, s);
+  const std::vector<MapMeasure> measures = map_measures(map, d, s);
+  if (!options.per_face.empty()) write_csv(options.per_face, measures);
+  if (!options.picture.empty()) write_picture(options, map.surface, measures);
   print_report(context, {{"anisotropy", measure(d.anisotropy, 1.0)},
                          {"anisotropy_eigenvalues", measure(d.anisotropy_eigenvalues, 1.0)},
                          {"area", measure(d.area, 1.0)},
@@ -106,7 +95,7 @@ void add_distortion(CLI::App& app, Context& context) {
   command.argument("MAP", options->map, "map: *.param.ply");
   command.optional_file("--per-face", options->per_face, "also write every face's measures as CSV");
   command.optional_file("--picture", options->picture, "also write the surface as PLY with every face's measures and a colour");
-  command.choice("--colour", options->colour, {"anisotropy", "area", "stretch_l2", "sorkine", "smoothness"},
+  command.choice("--colour", options->colour, map_measure_names(),
                  "what colours the picture: gray is neutral, red the worst 5% of the area");
   command.footer(
       "With singular values s1 >= s2 of the map from chart to surface, in units in which both have the same area:\n"

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "experiments/cell_options.h"
@@ -17,6 +18,21 @@ bool parse(const std::string& text, T& value) {
   // CLI11 wraps -1 around for an unsigned type, as strtoull does.
   if (std::is_unsigned_v<T> && text.find('-') != std::string::npos) return false;
   return CLI::detail::lexical_cast(text, value);
+}
+
+// x, -x, ... or X,Y,Z; false where it is neither.
+bool parse_direction(const std::string& word, Vec3& value) {
+  const std::string axes = "xyz";
+  const std::size_t axis = word.empty() ? std::string::npos : axes.find(word.back());
+  if (axis != std::string::npos && (word.size() == 1 || (word.size() == 2 && word[0] == '-'))) {
+    value = (word.size() == 1 ? 1.0 : -1.0) * Vec3::Unit(static_cast<Eigen::Index>(axis));
+    return true;
+  }
+  const std::vector<std::string> numbers = CLI::detail::split(word, ',');
+  if (numbers.size() != 3) return false;
+  for (int k = 0; k < 3; ++k)
+    if (!parse(numbers[k], value[k])) return false;
+  return std::isfinite(value.norm()) && value.norm() > 0.0;
 }
 
 template <class T>
@@ -132,6 +148,20 @@ void Command::sizes(const std::string& name, std::vector<std::size_t>& values, c
       ->delimiter(',')
       ->check([](const std::string& given) { return refusal(given, kLow, kHigh, range_of(kLow, kHigh)); })
       ->option_text("N,...");
+}
+
+void Command::direction(const std::string& name, std::optional<Vec3>& value, const std::string& text) {
+  const auto set = [&value](const std::string& word) {
+    Vec3 direction;
+    value.reset();
+    if (parse_direction(word, direction)) value = direction;
+  };
+  app_->add_option_function<std::string>(name, set, text + " [auto; auto, x, -x, y, -y, z, -z or X,Y,Z]")
+      ->check([](const std::string& word) {
+        Vec3 direction;
+        return word == "auto" || parse_direction(word, direction) ? std::string() : word + " is no direction";
+      })
+      ->option_text("DIR");
 }
 
 void Command::exclude(const std::string& name, const std::string& other) {

@@ -2,11 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/command.h"
 #include "coder/codec.h"
+#include "mesh/mesh.h"
 #include "param/parameterize.h"
 #include "remesh/remesh.h"
 
@@ -40,6 +42,8 @@ class Command {
                const std::string& text);
   /// Positive sizes, separated by commas.
   void sizes(const std::string& name, std::vector<std::size_t>& values, const std::string& text);
+  /// A direction: x, -x, y, -y, z, -z, or three numbers separated by commas; auto leaves it empty.
+  void direction(const std::string& name, std::optional<Vec3>& value, const std::string& text);
   /// Of two options only one may be given.
   void exclude(const std::string& name, const std::string& other);
   /// What --help ends with.

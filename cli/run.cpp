@@ -27,7 +27,8 @@ void add_commands(CLI::App& app, Context& context) {
       "Data go to standard output, progress and errors to standard error. gsp COMMAND --help lists a command's "
       "options.");
   for (auto* add :
-       {add_curve, add_info, add_parameterize, add_remesh, add_encode, add_decode, add_distance, add_distortion})
+       {add_curve, add_info, add_parameterize, add_remesh, add_encode, add_decode, add_distance, add_distortion,
+        add_picture})
     add(app, context);
 }
 

@@ -31,11 +31,7 @@ void add_columns(PlyElement& element, const std::vector<PictureColumn>& columns,
     PlyProperty& colour = element.properties.emplace_back();
     colour.name = names[k];
     colour.type = PlyType::Uint8;
-    for (double value : quality.values) {
-      const double range = scale.full - scale.neutral;
-      const double share = range != 0.0 ? std::clamp((value - scale.neutral) / range, 0.0, 1.0) : 0.0;
-      colour.values.push_back(std::round(kGray[k] + share * (kRed[k] - kGray[k])));
-    }
+    for (double value : quality.values) colour.values.push_back(std::round(colour_of(scale, value)[k]));
   }
   element.properties.push_back(std::move(quality));
 }
@@ -72,6 +68,15 @@ void write(const std::string& path, PlyElement vertices, PlyElement faces) {
 }
 
 }  // namespace
+
+std::array<double, 3> colour_of(const ColourScale& scale, double value) {
+  const double range = scale.full - scale.neutral;
+  const double share =
+      range != 0.0 && std::isfinite(value) ? std::clamp((value - scale.neutral) / range, 0.0, 1.0) : 0.0;
+  Rgb colour;
+  for (int k = 0; k < 3; ++k) colour[k] = kGray[k] + share * (kRed[k] - kGray[k]);
+  return colour;
+}
 
 void write_vertex_picture(const std::string& path, const Mesh& mesh, const std::vector<PictureColumn>& columns,
                           const ColourScale& scale) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct ColourScale {
   double neutral = 0.0;
   double full = 1.0;
 };
+
+/// Red, green, blue in [0, 255] of a value; that of `neutral` where it is not finite.
+std::array<double, 3> colour_of(const ColourScale& scale, double value);
 
 /// Binary PLY of the surface with the columns as properties of its vertices, and red, green, blue by the first column,
 /// which is also written as `quality`, the name MeshLab reads. Values that are not finite become 0.

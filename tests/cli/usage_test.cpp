@@ -6,7 +6,7 @@
 namespace {
 
 const std::vector<std::string> kCommands = {"info",   "parameterize", "remesh",     "encode",
-                                            "decode", "distance",     "distortion", "curve"};
+                                            "decode", "distance",     "distortion", "curve",  "picture"};
 
 }  // namespace
 
@@ -76,6 +76,11 @@ TEST_CASE("wrong usage has status 2, a reason on standard error and no data") {
       {"decode", "a"},
       {"distance", "a"},
       {"distance", "a", "b", "--samples", "1"},
+      {"picture", "a.ply"},
+      {"picture", "a.ply", "-o", "p.png", "--what", "magic"},
+      {"picture", "a.ply", "-o", "p.png", "--view", "0,0,0"},
+      {"picture", "a.ply", "-o", "p.png", "--up", "1,nan,0"},
+      {"picture", "a.ply", "-o", "p.png", "--size", "15"},
       {"curve", "a.ply"},
       {"curve", "-o", "d"},
       {"curve", "a.ply", "-o", "d", "--budgets", "100,0"},

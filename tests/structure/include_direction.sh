@@ -20,7 +20,7 @@ may_include() {
   for part in mesh param remesh coder metrics experiments cli; do
     [[ "|$folder|$allowed|" == *"|$part|"* ]] || others+="${others:+|}$part"
   done
-  refuse "$folder may include $allowed only" "^ *# *include *\"($others)/" "$folder"/*.h "$folder"/*.cpp
+  refuse "$folder may include $allowed only" "^ *# *include *\"($others)/" "$folder"/{,*/}*.h "$folder"/{,*/}*.cpp
 }
 
 shopt -s nullglob
@@ -35,5 +35,5 @@ refuse 'the coder knows the semi-regular mesh only, not the remesher' \
 refuse 'metrics know the result of a parameterization only, not the parameterizer' \
   '"param/parameterize\.h"' metrics/*.h metrics/*.cpp
 refuse 'a heavy library belongs into one .cpp' \
-  '^ *# *include *<(CLI|draco|OpenMesh|sqlite3|toml\+\+|tbb)' {mesh,param,remesh,coder,metrics,experiments,cli}/*.h
+  '^ *# *include *<(CLI|draco|OpenMesh|sqlite3|toml\+\+|tbb|png)' {mesh,param,remesh,coder,metrics,experiments,cli}/{,*/}*.h
 exit $((failures > 0))
