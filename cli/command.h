@@ -31,5 +31,7 @@ void add_distance(CLI::App& app, Context& context);
 void add_distortion(CLI::App& app, Context& context);
 void add_curve(CLI::App& app, Context& context);
 void add_picture(CLI::App& app, Context& context);
+void add_sweep(CLI::App& app, Context& context);
+void add_sweep_worker(CLI::App& app, Context& context);
 
 }  // namespace gsp::cli

@@ -8,6 +8,7 @@
 #include "cli/report.h"
 #include "experiments/cell_options.h"
 #include "experiments/curve_job.h"
+#include "experiments/models.h"
 
 namespace gsp::cli {
 

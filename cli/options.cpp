@@ -90,7 +90,17 @@ void Command::arguments(const std::string& place, std::vector<std::string>& valu
 }
 
 void Command::output(const std::string& place, std::string& value, const std::string& text) {
-  app_->add_option("-o,--output", value, text + " (required)")->required()->option_text(place);
+  required_option("-o,--output", place, value, text);
+}
+
+void Command::required_option(const std::string& name, const std::string& place, std::string& value,
+                              const std::string& text) {
+  app_->add_option(name, value, text + " (required)")->required()->option_text(place);
+}
+
+void Command::texts(const std::string& name, std::vector<std::string>& values, const std::string& place,
+                    const std::string& text) {
+  app_->add_option(name, values, text + " [none]")->option_text(place);
 }
 
 void Command::optional_file(const std::string& name, std::string& value, const std::string& text) {
@@ -167,6 +177,8 @@ void Command::direction(const std::string& name, std::optional<Vec3>& value, con
 void Command::exclude(const std::string& name, const std::string& other) {
   app_->get_option(name)->excludes(app_->get_option(other));
 }
+
+void Command::hide() { app_->group(""); }
 
 void Command::footer(const std::string& text) { app_->footer(text); }
 

@@ -27,6 +27,10 @@ class Command {
   void arguments(const std::string& place, std::vector<std::string>& values, const std::string& text);
   /// The required -o, --output.
   void output(const std::string& place, std::string& value, const std::string& text);
+  void required_option(const std::string& name, const std::string& place, std::string& value, const std::string& text);
+  /// Any number of texts.
+  void texts(const std::string& name, std::vector<std::string>& values, const std::string& place,
+             const std::string& text);
   void optional_file(const std::string& name, std::string& value, const std::string& text);
   void flag(const std::string& name, bool& value, const std::string& text);
   void integer(const std::string& name, int& value, int low, int high, const std::string& text);
@@ -46,6 +50,8 @@ class Command {
   void direction(const std::string& name, std::optional<Vec3>& value, const std::string& text);
   /// Of two options only one may be given.
   void exclude(const std::string& name, const std::string& other);
+  /// Leaves the command out of the list of commands.
+  void hide();
   /// What --help ends with.
   void footer(const std::string& text);
   /// What the command does when all its options are right.

@@ -86,10 +86,10 @@ std::vector<Axis> code_axes() {
       {"tangential_ratio", StageKind::Encode, Kind::Integer, 1, 8, {"1", "2", "4", "8"},
        [](const Options& o) { return Value(std::int64_t{o.encode.tangential_ratio}); },
        [](Options& o, const Value& v) { o.encode.tangential_ratio = static_cast<int>(integer(v)); }},
-      {"samples", StageKind::Measure, Kind::Integer, 1000, 1e9, {},
+      {"samples", StageKind::Remesh, Kind::Integer, 1000, 1e9, {},
        [](const Options& o) { return Value(static_cast<std::int64_t>(o.samples)); },
        [](Options& o, const Value& v) { o.samples = static_cast<std::size_t>(integer(v)); }},
-      {"seed", StageKind::Measure, Kind::Integer, 0, 0x1p62, {},
+      {"seed", StageKind::Remesh, Kind::Integer, 0, 0x1p62, {},
        [](const Options& o) { return Value(static_cast<std::int64_t>(o.seed)); },
        [](Options& o, const Value& v) { o.seed = static_cast<std::uint64_t>(integer(v)); }},
   };
@@ -173,7 +173,7 @@ std::string Axis::refusal(const AxisValue& value) const {
 
 bool Axis::applies_to(const std::string& method) const {
   const std::string text = name;
-  if (text == "method" || stage == StageKind::Measure) return true;
+  if (text == "method" || text == "samples" || text == "seed") return true;
   if (is_anchor(method)) return false;
   return (text != "objective" && text != "relaxations") || method == method_name(Method::Gsp);
 }

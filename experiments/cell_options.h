@@ -29,7 +29,7 @@ struct CellOptions {
   EncodeOptions encode;
   std::vector<std::size_t> budgets;  ///< bytes to decode; empty: 256, 512, 1024, ... and the whole stream
   std::size_t samples = 200000;      ///< of the distance, per direction; decimate-draco, which has many points, takes half
-  std::uint64_t seed = 1;            ///< of the samples
+  std::uint64_t seed = 1;            ///< of the samples; they measure the remesh too
 };
 
 /// The words of `CellOptions::method`, and those that stand for maps.

@@ -6,35 +6,16 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
-#include <map>
 
 #include "experiments/curve_csv.h"
+#include "experiments/models.h"
 #include "experiments/plot.h"
-#include "mesh/io.h"
 
 namespace gsp {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-bool surface_ending(const fs::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending == ".ply" || ending == ".obj" || ending == ".off" || ending == ".stl";
-}
-
-// File names without folder and ending; numbered where two surfaces would share one.
-std::vector<std::string> model_names(const std::vector<std::string>& surfaces) {
-  std::vector<std::string> names;
-  std::map<std::string, int> uses;
-  for (const std::string& surface : surfaces) {
-    const std::string stem = fs::path(surface).stem().string();
-    const int use = ++uses[stem];
-    names.push_back(use == 1 ? stem : stem + "-" + std::to_string(use));
-  }
-  return names;
-}
 
 // Runs a step; where it fails, the cause becomes part of the model's summary. Only a cancellation goes further.
 void attempt(CurveSummary& summary, const std::function<void()>& step) {
@@ -73,7 +54,7 @@ class Job {
         run.points = so_far.points;
         save_points(run.points);
       };
-      const Mesh mesh = read_mesh(surface);
+      const Mesh mesh = read_model(surface);
       run = rate_distortion_curve(mesh, model, options, progress);
     });
     finished_.insert(finished_.end(), run.points.begin(), run.points.end());
@@ -129,28 +110,10 @@ bool CurveJobResult::failed() const {
   return std::any_of(models.begin(), models.end(), [](const CurveSummary& model) { return !model.failure.empty(); });
 }
 
-std::vector<std::string> surface_files(const std::vector<std::string>& paths) {
-  std::vector<std::string> files;
-  for (const std::string& path : paths) {
-    if (!fs::is_directory(path)) {
-      files.push_back(path);
-      continue;
-    }
-    std::vector<std::string> inside;
-    for (const fs::directory_entry& entry : fs::directory_iterator(path))
-      if (entry.is_regular_file() && surface_ending(entry.path())) inside.push_back(entry.path().string());
-    if (inside.empty()) throw Error(Cause::CannotOpen, "no PLY, OBJ, OFF or STL file in " + path);
-    std::sort(inside.begin(), inside.end());
-    files.insert(files.end(), inside.begin(), inside.end());
-  }
-  return files;
-}
-
 CurveJobResult curve_job(const std::vector<std::string>& surfaces, const std::string& folder,
                          const CurveOptions& options, Progress& progress) {
   Job job(folder, options, progress);
-  const std::vector<std::string> models = model_names(surfaces);
-  for (std::size_t i = 0; i < surfaces.size(); ++i) job.add(surfaces[i], models[i]);
+  for (const ModelSource& model : named_models(surfaces)) job.add(model.source, model.name);
   return job.finish();
 }
 

@@ -14,10 +14,6 @@ struct CurveJobResult {
   bool failed() const;
 };
 
-/// The surfaces that paths name: files as they are, folders by their PLY, OBJ, OFF and STL files in name order.
-/// Throws Error(CannotOpen) where a folder holds none.
-std::vector<std::string> surface_files(const std::vector<std::string>& paths);
-
 /// Rate-distortion curves of several surfaces into a folder, which is made: curve.csv (rewritten as a whole after every
 /// method, so that an interrupt loses no finished one), MODEL.png, .svg and .gp, MODEL-omega.csv, overview.png and .svg
 /// for several models. A surface that fails is a summary with its cause, and the others go on.

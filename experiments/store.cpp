@@ -106,6 +106,38 @@ std::vector<CurvePoint> StoredCell::points() const {
   return rows;
 }
 
+std::vector<StoredCell> stored_cells(const Plan& plan, const std::map<std::string, StageResult>& results,
+                                     const std::string& folder) {
+  std::map<std::string, const StoredModel*> models;
+  for (const StoredModel& model : plan.models) models[model.name] = &model;
+  std::vector<StoredCell> cells;
+  for (const PlannedCell& planned : plan.cells) {
+    StoredCell& cell = cells.emplace_back();
+    cell.position = static_cast<int>(cells.size()) - 1;
+    cell.model = planned.model;
+    cell.label = planned.label;
+    cell.options = planned.options;
+    cell.cause = models[planned.model]->cause;
+    cell.failure = models[planned.model]->failure;
+    for (const auto& [kind, key] : planned.keys) {
+      const auto found = results.find(key);
+      if (found == results.end()) continue;
+      StageResult result = found->second;
+      for (auto& [role, path] : result.artefacts) path = place(folder, path);
+      if (cell.cause.empty() && result.failed()) {
+        cell.cause = result.cause;
+        cell.failure = result.failure;
+      }
+      cell.stages.push_back(std::move(result));
+    }
+    if (!cell.cause.empty())
+      cell.status = CellStatus::Failed;
+    else if (cell.stage(StageKind::Measure))
+      cell.status = CellStatus::Done;
+  }
+  return cells;
+}
+
 struct Store::Impl {
   Database database;
 
@@ -194,17 +226,40 @@ std::vector<std::string> Store::recipes() const {
   return names;
 }
 
-std::vector<StoredModel> Store::models(const std::string& recipe) const {
-  std::vector<StoredModel> models;
-  const auto row = impl_->database.prepare(
+Plan Store::plan(const std::string& recipe) const {
+  Plan plan;
+  plan.recipe = impl_->recipe_or_latest(recipe);
+  const auto model = impl_->database.prepare(
       "SELECT name, source, surface, path, vertices, faces, cause, failure FROM model WHERE recipe = ? ORDER BY "
       "position");
-  row->bind(impl_->recipe_or_latest(recipe));
-  while (row->step())
-    models.push_back({row->text(0), row->text(1), row->text(2), place(folder_, row->text(3)),
-                      static_cast<int>(row->integer(4)), static_cast<int>(row->integer(5)), row->text(6),
-                      row->text(7)});
+  model->bind(plan.recipe);
+  while (model->step())
+    plan.models.push_back({model->text(0), model->text(1), model->text(2), model->text(3),
+                           static_cast<int>(model->integer(4)), static_cast<int>(model->integer(5)), model->text(6),
+                           model->text(7)});
+  const auto row = impl_->database.prepare(
+      "SELECT model, label, options, parameterize, remesh, encode, measure FROM cell WHERE recipe = ? ORDER BY position");
+  row->bind(plan.recipe);
+  while (row->step()) {
+    PlannedCell& cell = plan.cells.emplace_back();
+    cell.model = row->text(0);
+    cell.label = row->text(1);
+    cell.options = options_from_json(row->text(2));
+    int column = 3;
+    for (StageKind kind : kStageKinds)
+      if (std::string key = row->text(column++); !key.empty()) cell.keys[kind] = std::move(key);
+  }
+  return plan;
+}
+
+std::vector<StoredModel> Store::models(const std::string& recipe) const {
+  std::vector<StoredModel> models = plan(recipe).models;
+  for (StoredModel& model : models) model.path = place(folder_, model.path);
   return models;
+}
+
+std::vector<StoredCell> Store::cells(const std::string& recipe) const {
+  return stored_cells(plan(recipe), results(), folder_);
 }
 
 std::map<std::string, StageResult> Store::results() const {
@@ -235,43 +290,6 @@ std::map<std::string, StageResult> Store::results() const {
       "standard_error_db, seed FROM point ORDER BY stage, position");
   while (point->step()) results[point->text(0)].points.push_back(read_point(*point));
   return results;
-}
-
-std::vector<StoredCell> Store::cells(const std::string& recipe) const {
-  const std::map<std::string, StageResult> known = results();
-  std::map<std::string, StoredModel> by_name;
-  for (StoredModel& model : models(recipe)) by_name[model.name] = std::move(model);
-
-  std::vector<StoredCell> cells;
-  const auto row = impl_->database.prepare(
-      "SELECT position, model, label, options, parameterize, remesh, encode, measure FROM cell WHERE recipe = ? ORDER BY "
-      "position");
-  row->bind(impl_->recipe_or_latest(recipe));
-  while (row->step()) {
-    StoredCell& cell = cells.emplace_back();
-    cell.position = static_cast<int>(row->integer(0));
-    cell.model = row->text(1);
-    cell.label = row->text(2);
-    cell.options = options_from_json(row->text(3));
-    cell.cause = by_name[cell.model].cause;
-    cell.failure = by_name[cell.model].failure;
-    for (StageKind kind : kStageKinds) {
-      const auto found = known.find(row->text(4 + static_cast<int>(kind)));
-      if (found == known.end()) continue;
-      StageResult result = found->second;
-      for (auto& [role, path] : result.artefacts) path = place(folder_, path);
-      if (cell.cause.empty() && result.failed()) {
-        cell.cause = result.cause;
-        cell.failure = result.failure;
-      }
-      cell.stages.push_back(std::move(result));
-    }
-    if (!cell.cause.empty())
-      cell.status = CellStatus::Failed;
-    else if (cell.stage(StageKind::Measure))
-      cell.status = CellStatus::Done;
-  }
-  return cells;
 }
 
 void Store::replace_plan(const Plan& plan) {

@@ -50,6 +50,21 @@ struct StoredModel {
   std::string cause, failure;  ///< why it could not be read
 };
 
+/// One cell as the planner wants it: which stages it consists of.
+struct PlannedCell {
+  std::string model;
+  std::string label;
+  CellOptions options;
+  std::map<StageKind, std::string> keys;  ///< of its stages; empty where the model could not be read
+};
+
+/// What a sweep of one recipe consists of.
+struct Plan {
+  std::string recipe;
+  std::vector<StoredModel> models;
+  std::vector<PlannedCell> cells;
+};
+
 enum class CellStatus { Waiting, Done, Failed };
 const char* status_name(CellStatus status);
 
@@ -73,20 +88,9 @@ struct StoredCell {
   std::vector<CurvePoint> points() const;
 };
 
-/// One cell as the planner wants it: which stages it consists of.
-struct PlannedCell {
-  std::string model;
-  std::string label;
-  CellOptions options;
-  std::map<StageKind, std::string> keys;  ///< of its stages; empty where the model could not be read
-};
-
-/// What a sweep of one recipe consists of.
-struct Plan {
-  std::string recipe;
-  std::vector<StoredModel> models;
-  std::vector<PlannedCell> cells;
-};
+/// The plan's cells with those of the results that are theirs; paths get the folder put before.
+std::vector<StoredCell> stored_cells(const Plan& plan, const std::map<std::string, StageResult>& results,
+                                     const std::string& folder);
 
 /// A folder with results: `results.sqlite` (write-ahead log) and the files it names, under `artefacts/` by the hash of
 /// their content. It may hold the cells of several recipes, which share what they have in common. Reading is safe while
@@ -111,6 +115,8 @@ class Store {
   /// Throws Error(BadOption) where the store does not know the recipe.
   std::vector<StoredModel> models(const std::string& recipe = {}) const;
   std::vector<StoredCell> cells(const std::string& recipe = {}) const;
+  /// The same as it was planned, paths relative to the folder.
+  Plan plan(const std::string& recipe = {}) const;
 
   // For the sweep alone.
   /// Replaces the models and cells of a recipe, which becomes the latest. Results stay.

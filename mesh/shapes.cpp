@@ -114,6 +114,12 @@ Mesh sphere(int level, double radius) {
   return mesh;
 }
 
+Mesh bumpy_sphere(int level) {
+  Mesh mesh = sphere(level);
+  for (Vec3& p : mesh.positions) p *= 1.0 + 0.15 * std::sin(4.0 * p.x()) * std::cos(3.0 * p.y() + p.z());
+  return mesh;
+}
+
 Mesh torus(int m, int n, double major, double minor) {
   Mesh mesh;
   for (int j = 0; j < n; ++j)

@@ -13,6 +13,8 @@ Mesh octahedron();
 Mesh icosahedron();
 /// Icosahedron quadrisected `level` >= 0 times, every vertex pushed onto the sphere of the given radius.
 Mesh sphere(int level, double radius = 1.0);
+/// A sphere with bumps of several sizes: closed, and nowhere so regular that a stage could get away with nothing to do.
+Mesh bumpy_sphere(int level);
 /// Torus of revolution about the z axis, m x n quads (m, n >= 3) split along one diagonal; major and minor radius.
 /// Vertex (i, j), i steps around the axis and j around the tube, is at index j*m + i.
 Mesh torus(int m, int n, double major = 1.0, double minor = 0.4);

@@ -13,12 +13,9 @@ using nlohmann::json;
 
 namespace {
 
-// A bumpy sphere: small, closed, and not so regular that a stage could get away with nothing to do.
 std::string write_bumpy(const TemporaryFolder& folder) {
-  Mesh mesh = shapes::sphere(4);
-  for (Vec3& p : mesh.positions) p *= 1.0 + 0.15 * std::sin(4.0 * p.x()) * std::cos(3.0 * p.y() + p.z());
   const std::string path = folder.file("bumpy.ply");
-  write_mesh(path, mesh);
+  write_mesh(path, shapes::bumpy_sphere(4));
   return path;
 }
 

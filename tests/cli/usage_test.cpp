@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "cli.h"
-#include "cli/suggest.h"
+#include "experiments/suggest.h"
 
 namespace {
 
@@ -110,7 +110,7 @@ TEST_CASE("a mistyped word is answered with the one that was probably meant") {
 }
 
 TEST_CASE("edit distance counts insertions, deletions, substitutions and swaps") {
-  using gsp::cli::edit_distance;
+  using gsp::edit_distance;
   CHECK(edit_distance("", "") == 0);
   CHECK(edit_distance("abc", "abc") == 0);
   CHECK(edit_distance("abc", "") == 3);

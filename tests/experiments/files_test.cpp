@@ -6,6 +6,7 @@
 #include "experiments/anchor_curves.h"
 #include "experiments/curve_csv.h"
 #include "experiments/curve_job.h"
+#include "experiments/models.h"
 #include "experiments/plot.h"
 #include "experiments/stages.h"
 #include "experiments/version.h"

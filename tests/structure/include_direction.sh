@@ -35,5 +35,5 @@ refuse 'the coder knows the semi-regular mesh only, not the remesher' \
 refuse 'metrics know the result of a parameterization only, not the parameterizer' \
   '"param/parameterize\.h"' metrics/*.h metrics/*.cpp
 refuse 'a heavy library belongs into one .cpp' \
-  '^ *# *include *<(CLI|draco|OpenMesh|sqlite3|toml\+\+|tbb|png)' {mesh,param,remesh,coder,metrics,experiments,cli}/{,*/}*.h
+  '^ *# *include *<(CLI|draco|OpenMesh|sqlite3|toml\+\+|tbb|png|xxhash)' {mesh,param,remesh,coder,metrics,experiments,cli}/{,*/}*.h
 exit $((failures > 0))

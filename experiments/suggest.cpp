@@ -1,8 +1,8 @@
-#include "cli/suggest.h"
+#include "experiments/suggest.h"
 
 #include <algorithm>
 
-namespace gsp::cli {
+namespace gsp {
 
 int edit_distance(const std::string& a, const std::string& b) {
   const std::size_t columns = b.size() + 1;
@@ -37,4 +37,4 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   return best;
 }
 
-}  // namespace gsp::cli
+}  // namespace gsp

@@ -1,0 +1,203 @@
+#include "experiments/sweep.h"
+
+#include <signal.h>
+#include <sqlite3.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "experiments/worker.h"
+#include "mesh/io.h"
+#include "mesh/random.h"
+#include "mesh/read_file.h"
+#include "mesh/shapes.h"
+#include "temporary_folder.h"
+
+using namespace gsp;
+namespace fs = std::filesystem;
+
+namespace {
+
+// Two small surfaces on which a whole sweep takes a moment, and recipes about them.
+class Study {
+ public:
+  Study() {
+    Mesh bumpy = shapes::bumpy_sphere(2);
+    write_mesh(folder_.file("bumpy.ply"), bumpy);
+    write_mesh(folder_.file("torus.ply"), shapes::torus(12, 8));
+  }
+
+  std::string file(const std::string& name) const { return folder_.file(name); }
+  std::string store() const { return folder_.file("store"); }
+
+  std::string recipe_file(const std::string& rest, const std::string& models = "*.ply") const {
+    std::ofstream(file("study.toml")) << "models = [\"" << file(models) << "\"]\nbudgets = [128, 256, 512]\n"
+                                      << "samples = 2000\nbase_vertices = 12\n" << rest;
+    return file("study.toml");
+  }
+
+  SweepResult run(const std::string& rest, const std::string& models = "*.ply", int jobs = 1) const {
+    return sweep(read_recipe(recipe_file(rest, models)), store(), options(jobs), silent_);
+  }
+
+  static SweepOptions options(int jobs) {
+    SweepOptions options;
+    options.jobs = jobs;
+    options.program = GSP_PROGRAM;
+    return options;
+  }
+
+ private:
+  TemporaryFolder folder_;
+  mutable Progress silent_;
+};
+
+int count(const std::vector<StoredCell>& cells, CellStatus status) {
+  return static_cast<int>(
+      std::count_if(cells.begin(), cells.end(), [&](const StoredCell& cell) { return cell.status == status; }));
+}
+
+// Every row of every table but the times, as text.
+std::string dump(const std::string& store) {
+  sqlite3* database = nullptr;
+  REQUIRE(sqlite3_open((store + "/results.sqlite").c_str(), &database) == SQLITE_OK);
+  std::string text;
+  const auto append = [](void* out, int columns, char** values, char**) {
+    for (int i = 0; i < columns; ++i) *static_cast<std::string*>(out) += std::string(values[i] ? values[i] : "") + '|';
+    *static_cast<std::string*>(out) += '\n';
+    return 0;
+  };
+  for (const char* query : {"SELECT * FROM recipe", "SELECT * FROM model", "SELECT * FROM cell",
+                            "SELECT key, kind, input, options, version, cause, failure, numbers FROM stage",
+                            "SELECT * FROM artefact", "SELECT * FROM point"})
+    REQUIRE(sqlite3_exec(database, query, append, &text, nullptr) == SQLITE_OK);
+  sqlite3_close(database);
+  return text;
+}
+
+constexpr const char* kTwoMethods = "method = [\"gsp\", \"maps-smoothed\", \"draco\"]\n";
+
+}  // namespace
+
+TEST_CASE("a sweep runs every stage once, then finds everything done") {
+  const Study study;
+  const SweepResult first = study.run(kTwoMethods, "*.ply", 2);
+  CHECK(first.cells.size() == 6);
+  CHECK(count(first.cells, CellStatus::Done) == 6);
+  CHECK(first.stages_run == 2 * (4 + 4 + 1));
+  CHECK(fs::exists(first.cells.front().artefact("map")));
+  CHECK(fs::exists(first.cells.front().artefact("stream")));
+  const std::string csv = read_file(study.store() + "/curve.csv");
+  CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == points_of(first.cells).size() + 1);
+
+  CHECK(study.run(kTwoMethods).stages_run == 0);
+  CHECK(read_file(study.store() + "/curve.csv") == csv);
+  // Another wavelet on the same maps: nothing but coding and measuring.
+  const SweepResult wavelets = study.run("method = \"gsp\"\nwavelet = [\"loop\", \"butterfly\"]\n");
+  CHECK(wavelets.stages_run == 2 * 2);
+  CHECK(wavelets.cells.front().label == "gsp wavelet=loop");
+  // The same surface under another name and in another format is the same.
+  write_mesh(study.file("copy.off"), read_mesh(study.file("torus.ply")));
+  CHECK(study.run(kTwoMethods, "copy.off").stages_run == 0);
+}
+
+TEST_CASE("a surface or a stage that fails is a row with its cause, and the others go on") {
+  const Study study;
+  std::ofstream(study.file("broken.ply")) << "ply\nformat ascii 1.0\nelement vertex";
+  std::ofstream(study.file("fan.ply")) << "ply\nformat ascii 1.0\nelement vertex 5\nproperty double x\nproperty double "
+                                          "y\nproperty double z\nelement face 3\nproperty list uchar int "
+                                          "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 "
+                                          "0 3\n3 0 1 4\n";
+  const SweepResult result = study.run("method = [\"gsp\", \"maps\"]\n");
+  CHECK(result.failed());
+  REQUIRE(result.cells.size() == 8);
+  CHECK(count(result.cells, CellStatus::Done) == 4);
+  for (const StoredCell& cell : result.cells) {
+    if (cell.model == "broken") CHECK(cell.cause == "truncated");
+    if (cell.model == "fan") CHECK(cell.cause == "non-manifold-edge");
+  }
+  CHECK(study.run("method = [\"gsp\", \"maps\"]\n").stages_run == 0);
+  const auto cells = planned_cells(read_recipe(study.file("study.toml")), study.store());
+  CHECK(count(cells, CellStatus::Failed) == 4);
+}
+
+TEST_CASE("a stage that brings its worker down is a failure of its cell alone, and is tried again next time") {
+  const Study study;
+  // Crashes at the first map of the torus, once; otherwise it is gsp.
+  const std::string program = study.file("crashing-gsp");
+  std::ofstream(program) << "#!/bin/sh\nif [ ! -e " << study.file("crashed") << " ]; then touch " << study.file("crashed")
+                         << "\n  key=$(grep -o '\"remesh\": \"[0-9a-f]*\"' \"$5\" | head -1 | cut -d'\"' -f4)\n"
+                         << "  echo begin $key; kill -SEGV $$\nfi\nexec " << GSP_PROGRAM << " \"$@\"\n";
+  ::chmod(program.c_str(), 0755);
+  SweepOptions options = Study::options(1);
+  options.program = program;
+  Progress silent;
+  const Recipe recipe = read_recipe(study.recipe_file(kTwoMethods, "torus.ply"));
+  const SweepResult crashed = sweep(recipe, study.store(), options, silent);
+  CHECK(count(crashed.cells, CellStatus::Failed) == 1);
+  CHECK(count(crashed.cells, CellStatus::Done) == 2);
+  for (const StoredCell& cell : crashed.cells)
+    if (cell.status == CellStatus::Failed) CHECK(cell.cause == "crashed");
+  const SweepResult again = sweep(recipe, study.store(), options, silent);
+  CHECK(count(again.cells, CellStatus::Done) == 3);
+}
+
+TEST_CASE("files that were damaged or deleted are made again where something needs them") {
+  const Study study;
+  const SweepResult first = study.run("", "torus.ply");
+  const std::string remesh = first.cells.front().artefact("remesh");
+  std::ofstream(remesh, std::ios::app) << "x";
+  fs::remove(first.cells.front().artefact("map"));
+  const SweepResult second = study.run("wavelet = \"butterfly\"\n", "torus.ply");
+  CHECK(count(second.cells, CellStatus::Done) == 1);
+  CHECK(fs::exists(second.cells.front().artefact("map")));
+}
+
+TEST_CASE("one sweep at a time works on a folder, and fail-fast stops at the first failure") {
+  const Study study;
+  std::ofstream(study.file("fan.ply")) << "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n";
+  SweepOptions options = Study::options(1);
+  options.fail_fast = true;
+  Progress silent;
+  const Recipe recipe = read_recipe(study.recipe_file(""));
+  int calls = 0;
+  Progress nosy([&](const std::string&, double) {
+    if (calls++ == 0) {
+      CHECK(sweep_at_work(study.store()));
+      CHECK_THROWS_AS(sweep(recipe, study.store(), options, silent), Error);
+    }
+    return true;
+  });
+  const SweepResult result = sweep(recipe, study.store(), options, nosy);
+  CHECK(calls > 0);
+  CHECK_FALSE(sweep_at_work(study.store()));
+  CHECK(result.failed());
+}
+
+TEST_CASE("a sweep killed at random moments and resumed ends with the same database and table") {
+  const Study whole, killed;
+  const std::string text = kTwoMethods;
+  const auto start = std::chrono::steady_clock::now();
+  whole.run(text, "*.ply", 2);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+  // The same surfaces by the same names, so that the rows can be equal.
+  const std::string recipe = whole.recipe_file(text);
+  Random random(6);
+  constexpr int kKills = 4;
+  for (int kill = 0; kill < kKills; ++kill) {
+    Worker victim(GSP_PROGRAM, {"sweep", recipe, "--store", killed.store(), "--jobs", "2", "-q"});
+    std::this_thread::sleep_for(std::chrono::duration<double>(0.7 * random.uniform() * seconds));
+    victim.kill();
+    victim.wait();
+  }
+  Progress silent;
+  const SweepResult resumed = sweep(read_recipe(recipe), killed.store(), Study::options(2), silent);
+  CHECK(count(resumed.cells, CellStatus::Done) == 6);
+  CHECK(dump(killed.store()) == dump(whole.store()));
+  CHECK(read_file(killed.store() + "/curve.csv") == read_file(whole.store() + "/curve.csv"));
+}
