@@ -6,6 +6,7 @@
 
 #include "cli/options.h"
 #include "cli/report.h"
+#include "cli/summary_report.h"
 #include "experiments/cell_options.h"
 #include "experiments/curve_job.h"
 #include "experiments/models.h"
@@ -23,36 +24,6 @@ struct Options {
   CurveOptions curve;
 };
 
-Json optional(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
-
-Json method_report(const MethodSummary& m) {
-  Json bytes_at = Json::object();
-  for (std::size_t i = 0; i < m.bytes_at.size(); ++i)
-    bytes_at[std::to_string(static_cast<int>(kTableLevelsDb[i])) + "_db"] = optional(m.bytes_at[i]);
-  Json report = {{"method", m.method}, {"bytes_at", bytes_at}};
-  if (m.base_vertices > 0)
-    report.update({{"base_vertices", m.base_vertices},
-                   {"base_faces", m.base_faces},
-                   {"level", m.level},
-                   {"ceiling_db", m.ceiling_db}});
-  if (m.gain)
-    report["gain"] = {{"mean_db", m.gain->mean_db}, {"from_bytes", m.gain->from_bytes}, {"to_bytes", m.gain->to_bytes}};
-  if (m.bytes_ratio) report["bytes_ratio"] = *m.bytes_ratio;
-  return report;
-}
-
-Json job_report(const CurveJobResult& job) {
-  Json models = Json::array();
-  for (const CurveSummary& summary : job.models) {
-    Json methods = Json::array();
-    for (const MethodSummary& m : summary.methods) methods.push_back(method_report(m));
-    Json model = {{"model", summary.model}, {"methods", methods}};
-    if (!summary.failure.empty()) model["error"] = {{"cause", summary.cause}, {"message", summary.failure}};
-    models.push_back(model);
-  }
-  return {{"models", models}, {"files", job.files}};
-}
-
 int run_curve(Options& options, Context& context) {
   Progress progress = context.console.progress();
   options.curve.methods.clear();
@@ -61,7 +32,7 @@ int run_curve(Options& options, Context& context) {
   options.curve.encode.wavelet = wavelet_of(options.wavelet);
   const CurveJobResult job = curve_job(surface_files(options.meshes), options.output, options.curve, progress);
   if (context.json) {
-    print_report(context, job_report(job));
+    print_report(context, {{"models", summaries_report(job.models)}, {"files", job.files}});
   } else {
     print_summaries(context.out, job.models);
     context.out << "files\n";

@@ -98,13 +98,18 @@ void Command::required_option(const std::string& name, const std::string& place,
   app_->add_option(name, value, text + " (required)")->required()->option_text(place);
 }
 
+void Command::optional_text(const std::string& name, const std::string& place, std::string& value,
+                            const std::string& text) {
+  app_->add_option(name, value, text)->option_text(place);
+}
+
 void Command::texts(const std::string& name, std::vector<std::string>& values, const std::string& place,
                     const std::string& text) {
   app_->add_option(name, values, text + " [none]")->option_text(place);
 }
 
 void Command::optional_file(const std::string& name, std::string& value, const std::string& text) {
-  app_->add_option(name, value, text + " [none]")->option_text("FILE");
+  optional_text(name, "FILE", value, text + " [none]");
 }
 
 void Command::flag(const std::string& name, bool& value, const std::string& text) { app_->add_flag(name, value, text); }

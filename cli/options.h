@@ -28,6 +28,7 @@ class Command {
   /// The required -o, --output.
   void output(const std::string& place, std::string& value, const std::string& text);
   void required_option(const std::string& name, const std::string& place, std::string& value, const std::string& text);
+  void optional_text(const std::string& name, const std::string& place, std::string& value, const std::string& text);
   /// Any number of texts.
   void texts(const std::string& name, std::vector<std::string>& values, const std::string& place,
              const std::string& text);

@@ -28,7 +28,8 @@ void add_commands(CLI::App& app, Context& context) {
       "options.");
   for (auto* add :
        {add_curve, add_info, add_parameterize, add_remesh, add_encode, add_decode, add_distance, add_distortion,
-        add_picture, add_sweep, add_sweep_worker})
+        add_picture, add_sweep, add_sweep_worker, add_baseline, add_check,
+        add_export})
     add(app, context);
 }
 

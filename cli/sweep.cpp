@@ -10,6 +10,7 @@
 
 #include "cli/options.h"
 #include "cli/report.h"
+#include "cli/summary_report.h"
 #include "experiments/stage_runner.h"
 #include "experiments/worker.h"
 
@@ -73,7 +74,13 @@ int run_sweep(Options& options, Context& context) {
   Progress progress = context.console.progress();
   options.sweep.program = std::filesystem::read_symlink("/proc/self/exe").string();
   const SweepResult result = sweep(recipe, options.store, options.sweep, progress);
-  print_cells(context, result.cells, {{"stages_run", result.stages_run}, {"table", options.store + "/curve.csv"}});
+  const std::vector<CurveSummary> summaries = summaries_of(result.cells);
+  Json further = {{"stages_run", result.stages_run}, {"table", options.store + "/curve.csv"}};
+  if (context.json)
+    further["models"] = summaries_report(summaries);
+  else
+    print_summaries(context.out, summaries);
+  print_cells(context, result.cells, further);
   return result.failed() ? 1 : 0;
 }
 

@@ -58,7 +58,7 @@ class Job {
       run = rate_distortion_curve(mesh, model, options, progress);
     });
     finished_.insert(finished_.end(), run.points.begin(), run.points.end());
-    const CurveSummary numbers = summarize(model, run.points);
+    const CurveSummary numbers = summarize(model, by_method(run.points));
     summary.model = model;
     summary.methods = numbers.methods;
     if (!run.omega.empty())

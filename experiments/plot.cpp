@@ -85,11 +85,11 @@ std::string byte_tics(double low, double high) {
 std::string data_name(std::size_t panel, std::size_t method) { return fmt::format("$d{}_{}", panel, method); }
 
 std::string panel_data(const std::vector<CurvePoint>& points, std::size_t panel) {
-  const std::vector<std::string> methods = methods_of(points);
+  const std::vector<CurveSeries> curves = by_method(points);
   std::string script;
-  for (std::size_t m = 0; m < methods.size(); ++m) {
+  for (std::size_t m = 0; m < curves.size(); ++m) {
     script += data_name(panel, m) + " << EOD\n";
-    for (const RatePoint& point : method_curve(points, methods[m]))
+    for (const RatePoint& point : envelope_of(curves[m].points))
       script += fmt::format("{:.0f} {:.4f}\n", point.bytes, point.psnr_db);
     script += "EOD\n";
   }
@@ -98,21 +98,17 @@ std::string panel_data(const std::vector<CurvePoint>& points, std::size_t panel)
 
 std::string panel_commands(const PlotPanel& panel, std::size_t index) {
   const auto& [model, points] = panel;
-  const std::vector<std::string> methods = methods_of(points);
+  const std::vector<CurveSeries> curves = by_method(points);
   std::string lines;
-  for (std::size_t m = 0; m < methods.size(); ++m) {
-    const Style& style = style_of(methods[m]);
+  for (std::size_t m = 0; m < curves.size(); ++m) {
+    const Style& style = style_of(curves[m].name);
     lines += fmt::format("{}{} using 1:2 with linespoints lw {} pt 7 ps 0.5 lc rgb '{}' title {}",
-                         m ? ", \\\n     " : "", data_name(index, m), style.width, style.color, quoted(methods[m]));
+                         m ? ", \\\n     " : "", data_name(index, m), style.width, style.color, quoted(curves[m].name));
   }
-  for (const std::string& method : methods) {
-    const auto row =
-        std::find_if(points.begin(), points.end(), [&](const CurvePoint& p) { return p.method == method; });
-    if (row->remesh_error > 0.0)
-      lines += fmt::format(", \\\n     {:.4f} with lines dt 2 lw 1 lc rgb '{}' title {}",
-                           -20.0 * std::log10(row->remesh_error), style_of(method).color,
-                           quoted(method + " remesh (ceiling)"));
-  }
+  for (const CurveSeries& curve : curves)
+    if (const double ceiling = ceiling_db(curve.points); ceiling > 0.0)
+      lines += fmt::format(", \\\n     {:.4f} with lines dt 2 lw 1 lc rgb '{}' title {}", ceiling,
+                           style_of(curve.name).color, quoted(curve.name + " remesh (ceiling)"));
   const auto [low, high] = byte_range(points);
   return fmt::format(
       "set title {} noenhanced\nset xtics ({})\nset xrange [{:.0f}:{:.0f}]\nset yrange [*:{}]\nplot {}\n",

@@ -7,6 +7,7 @@
 
 #include "experiments/curve.h"
 #include "experiments/rate_curve.h"
+#include "metrics/bd_rate.h"
 
 namespace gsp {
 
@@ -17,13 +18,23 @@ inline constexpr double kRatioLevelDb = 65.0;
 inline constexpr double kCompareFromBytes = 1024.0;
 inline constexpr double kCeilingMarginDb = 10.0;
 
+/// The points of one curve: those of a method, or of one cell of a sweep.
+struct CurveSeries {
+  std::string name;
+  std::vector<CurvePoint> points;
+};
+
 /// One method on one model.
 struct MethodSummary {
-  std::string method;
+  std::string method;  ///< name of the series
   int base_vertices = 0, base_faces = 0, level = 0;
   double ceiling_db = 0.0;                      ///< -20·log10(remeshing error); 0 for the anchors, which have none
   std::vector<std::optional<double>> bytes_at;  ///< at kTableLevelsDb
   std::optional<Gain> gain;                     ///< of the first method over this one; empty for the first itself
+  /// Bjøntegaard deltas of the first method (test) over this one (anchor), under both ceilings less kCeilingMarginDb;
+  /// empty for the first itself, and with the reason in `no_bd` where the curves cannot be compared.
+  std::optional<BdResult> bd;
+  std::string no_bd;
   std::optional<double> bytes_ratio;            ///< this method's bytes over the first's, at kRatioLevelDb
 };
 
@@ -34,17 +45,27 @@ struct CurveSummary {
   std::vector<MethodSummary> methods;  ///< in the order of the points; the first is compared with the others
 };
 
-/// The curve that a method's points make: their upper envelope.
-RateCurve method_curve(const std::vector<CurvePoint>& points, const std::string& method);
+/// The curve that points make: their upper envelope.
+RateCurve envelope_of(const std::vector<CurvePoint>& points);
 
-/// Names of the methods in the order of their first points.
-std::vector<std::string> methods_of(const std::vector<CurvePoint>& points);
+/// PSNR of the uncoded remesh; 0 for anchors, which have none.
+double ceiling_db(const std::vector<CurvePoint>& points);
 
-/// Summary of the points of one model.
-CurveSummary summarize(const std::string& model, const std::vector<CurvePoint>& points);
+/// The points as `bd_compare` takes them, with the remesh's ceiling where there is one.
+BdCurve bd_curve(const std::vector<CurvePoint>& points);
 
-/// Mean over the models of the gain over a method; empty where no model has one. `models` receives how many do.
-std::optional<double> mean_gain_db(const std::vector<CurveSummary>& summaries, const std::string& method, int& models);
+/// One series a method, in the order of their first points.
+std::vector<CurveSeries> by_method(const std::vector<CurvePoint>& points);
+
+/// Summary of the curves of one model.
+CurveSummary summarize(const std::string& model, const std::vector<CurveSeries>& curves);
+
+/// Means over the models of what the first method gains over another; empty where no model has it.
+struct MeanGain {
+  std::optional<double> gain_db, bd_rate;  ///< dB; per cent
+  int gain_models = 0, bd_models = 0;      ///< how many models have them
+};
+MeanGain mean_gain_over(const std::vector<CurveSummary>& summaries, const std::string& method);
 
 /// The table for people, with the definition of every number in it.
 void print_summaries(std::ostream& out, const std::vector<CurveSummary>& summaries);

@@ -270,6 +270,24 @@ std::vector<StoredCell> planned_cells(const Recipe& recipe, const std::string& f
 
 bool sweep_at_work(const std::string& folder) { return FolderLock::held(folder); }
 
+std::vector<CurveSummary> summaries_of(const std::vector<StoredCell>& cells) {
+  std::vector<CurveSummary> summaries;
+  for (std::size_t first = 0, next; first < cells.size(); first = next) {
+    std::vector<CurveSeries> curves;
+    CurveSummary failed;
+    for (next = first; next < cells.size() && cells[next].model == cells[first].model; ++next) {
+      curves.push_back({cells[next].label, cells[next].points()});
+      if (!failed.cause.empty() || cells[next].cause.empty()) continue;
+      failed.cause = cells[next].cause;
+      failed.failure = cells[next].label + ": " + cells[next].failure;
+    }
+    CurveSummary& summary = summaries.emplace_back(summarize(cells[first].model, curves));
+    summary.cause = failed.cause;
+    summary.failure = failed.failure;
+  }
+  return summaries;
+}
+
 std::vector<CurvePoint> points_of(const std::vector<StoredCell>& cells) {
   std::vector<CurvePoint> all;
   for (const StoredCell& cell : cells) {

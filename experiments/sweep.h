@@ -5,6 +5,7 @@
 
 #include "experiments/recipe.h"
 #include "experiments/store.h"
+#include "experiments/summary.h"
 #include "mesh/progress.h"
 
 namespace gsp {
@@ -34,6 +35,9 @@ std::vector<StoredCell> planned_cells(const Recipe& recipe, const std::string& f
 
 /// True while a sweep is at work on the folder.
 bool sweep_at_work(const std::string& folder);
+
+/// Summaries of the models, one curve a cell; a model's failures are those of its first failed cell.
+std::vector<CurveSummary> summaries_of(const std::vector<StoredCell>& cells);
 
 /// All rows of the cells, in their order.
 std::vector<CurvePoint> points_of(const std::vector<StoredCell>& cells);

@@ -29,7 +29,7 @@ TEST_CASE("a summary gives back the gain, the range and the ratio that the curve
   add_method(points, "gsp", 43.0, 80.0);
   add_method(points, "maps", 40.0, 80.0);
   add_method(points, "draco", 35.0, 0.0);
-  const CurveSummary summary = summarize("model", points);
+  const CurveSummary summary = summarize("model", by_method(points));
   REQUIRE(summary.methods.size() == 3);
   const MethodSummary& gsp = summary.methods[0];
   CHECK(gsp.ceiling_db == Approx(80.0));
@@ -40,6 +40,12 @@ TEST_CASE("a summary gives back the gain, the range and the ratio that the curve
   const MethodSummary& maps = summary.methods[1];
   REQUIRE(maps.gain);
   CHECK(maps.gain->mean_db == Approx(3.0));
+  // 3 dB at 5 dB an octave are 3/5 of an octave, from 43 dB up to 10 dB under both ceilings.
+  REQUIRE(maps.bd);
+  CHECK(maps.bd->rate.value == Approx(100.0 * (std::exp2(-3.0 / 5.0) - 1.0)));
+  CHECK(maps.bd->rate.from == Approx(43.0));
+  CHECK(maps.bd->rate.to == Approx(70.0));
+  CHECK(maps.bd->psnr.value == Approx(3.0));
   CHECK(maps.gain->from_bytes == 1024.0);
   // gsp, the better one, is the first within 10 dB of its ceiling: at 70 dB.
   CHECK(maps.gain->to_bytes == Approx(256.0 * std::exp2(27.0 / 5.0)));
@@ -54,12 +60,13 @@ TEST_CASE("curves that lie in different ranges have no gain, and nothing is inve
   std::vector<CurvePoint> points;
   add_method(points, "gsp", 75.0, 80.0);  // within 10 dB of the ceiling from the first byte on
   add_method(points, "maps", 40.0, 80.0);
-  const CurveSummary summary = summarize("model", points);
+  const CurveSummary summary = summarize("model", by_method(points));
   CHECK_FALSE(summary.methods[1].gain);
   CHECK_FALSE(summary.methods[1].bytes_ratio);
-  int models = -1;
-  CHECK_FALSE(mean_gain_db({summary}, "maps", models));
-  CHECK(models == 0);
+  CHECK_FALSE(summary.methods[1].bd);
+  CHECK(summary.methods[1].no_bd.find("do not overlap") != std::string::npos);
+  CHECK_FALSE(mean_gain_over({summary}, "maps").gain_db);
+  CHECK_FALSE(mean_gain_over({summary}, "maps").bd_rate);
 }
 
 TEST_CASE("the table names failures, means and the definition of its numbers") {
@@ -71,9 +78,9 @@ TEST_CASE("the table names failures, means and the definition of its numbers") {
   failed.cause = "non-manifold-edge";
   failed.failure = "an edge has three faces (edge 7)";
   std::ostringstream out;
-  print_summaries(out, {summarize("model", points), failed});
+  print_summaries(out, {summarize("model", by_method(points)), failed});
   const std::string text = out.str();
   for (const char* part : {"FAILED (non-manifold-edge): an edge has three faces (edge 7)", "+3.00 dB",
-                           "gsp over maps-smoothed: +3.00 dB (1 of 2 models)", "PSNR = 20 log10", "ceiling:"})
+                           "gsp over maps-smoothed: +3.00 dB (1 of 2 models), BD-rate -34.0% (1 of 2 models)", "PSNR = 20 log10", "ceiling:"})
     CHECK(text.find(part) != std::string::npos);
 }

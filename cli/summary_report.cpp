@@ -1,0 +1,56 @@
+#include "cli/summary_report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace gsp::cli {
+
+namespace {
+
+Json optional(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+Json average_report(const BdAverage& average, const char* unit) {
+  Json report = {{unit, average.value},
+                 {"from", average.from},
+                 {"to", average.to},
+                 {"overlap_share", average.overlap_share}};
+  if (average.small_overlap) report["warning"] = average.warning;
+  return report;
+}
+
+Json method_report(const MethodSummary& m) {
+  Json bytes_at = Json::object();
+  for (std::size_t i = 0; i < m.bytes_at.size(); ++i)
+    bytes_at[std::to_string(static_cast<int>(kTableLevelsDb[i])) + "_db"] = optional(m.bytes_at[i]);
+  Json report = {{"method", m.method}, {"bytes_at", bytes_at}};
+  if (m.base_vertices > 0)
+    report.update({{"base_vertices", m.base_vertices},
+                   {"base_faces", m.base_faces},
+                   {"level", m.level},
+                   {"ceiling_db", m.ceiling_db}});
+  if (m.gain)
+    report["gain"] = {{"mean_db", m.gain->mean_db}, {"from_bytes", m.gain->from_bytes}, {"to_bytes", m.gain->to_bytes}};
+  if (m.bd) {
+    report["bd_rate"] = average_report(m.bd->rate, "percent");
+    report["bd_psnr"] = average_report(m.bd->psnr, "db");
+  } else if (!m.no_bd.empty()) {
+    report["no_bd"] = m.no_bd;
+  }
+  if (m.bytes_ratio) report["bytes_ratio"] = *m.bytes_ratio;
+  return report;
+}
+
+}  // namespace
+
+Json summaries_report(const std::vector<CurveSummary>& summaries) {
+  Json models = Json::array();
+  for (const CurveSummary& summary : summaries) {
+    Json methods = Json::array();
+    for (const MethodSummary& m : summary.methods) methods.push_back(method_report(m));
+    Json model = {{"model", summary.model}, {"methods", methods}};
+    if (!summary.failure.empty()) model["error"] = {{"cause", summary.cause}, {"message", summary.failure}};
+    models.push_back(model);
+  }
+  return models;
+}
+
+}  // namespace gsp::cli

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "cli/report.h"
+#include "experiments/summary.h"
+
+namespace gsp::cli {
+
+/// Summaries of models as JSON: an array with the model's methods, and its error where it has one.
+Json summaries_report(const std::vector<CurveSummary>& summaries);
+
+}  // namespace gsp::cli

@@ -1,0 +1,108 @@
+#include "experiments/check.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "mesh/error.h"
+#include "temporary_folder.h"
+
+using namespace gsp;
+
+namespace {
+
+// Two cells as a run has them: a curve of 5 dB an octave from 256 bytes on, and a few numbers.
+Baseline sample_run() {
+  Baseline run = baseline_of("smoke", {});
+  for (const char* label : {"gsp", "maps"}) {
+    BaselineRow row{.model = "torus", .label = label, .options = {{"gamma", "2"}}, .cause = {}, .numbers = {}, .times = {},
+                    .curve = {}, .ceiling_db = 95.0};
+    for (int octave = 0; octave < 9; ++octave)
+      row.curve.push_back({256.0 * std::exp2(octave), 40.0 + 5.0 * octave});
+    row.numbers = {{"flipped_faces", 0}, {"level", 4}, {"psnr_db at 512 bytes", 45.0}, {"remesh_error", 1e-4}};
+    row.times = {{"time parameterize", 100.0}};
+    run.rows.push_back(row);
+  }
+  return run;
+}
+
+// The movements of a run in which `edit` changed the first row.
+template <class Edit>
+CheckResult after(Edit edit, const CheckOptions& options = {}) {
+  Baseline run = sample_run();
+  edit(run.rows.front());
+  return check(sample_run(), run, options);
+}
+
+}  // namespace
+
+TEST_CASE("a run passes against itself, also by way of a file") {
+  const TemporaryFolder folder;
+  const Baseline run = sample_run();
+  write_baseline(folder.file("b.json"), run);
+  const CheckResult result = check(read_baseline(folder.file("b.json")), run, {});
+  CHECK(result.passed());
+  CHECK(result.moved.empty());
+  CHECK(result.compared == 2 * (4 + 1 + 1));
+  CHECK(result.without_bd == 0);
+  CHECK_THROWS_AS(read_baseline(folder.file("none.json")), Error);
+}
+
+TEST_CASE("what got worse by more than it may fails the check and is named") {
+  const CheckResult worse = after([](BaselineRow& row) {
+    row.numbers["psnr_db at 512 bytes"] -= 0.05;
+    row.numbers["flipped_faces"] = 1;
+    row.times["time parameterize"] = 250.0;
+  });
+  CHECK_FALSE(worse.passed());
+  REQUIRE(worse.moved.size() == 3);
+  for (const Movement& movement : worse.moved) {
+    CHECK(movement.label == "gsp");
+    CHECK(movement.verdict == Verdict::Regressed);
+  }
+  CHECK(junit_report(worse, "smoke").find("tests=\"2\" failures=\"1\"") != std::string::npos);
+  CHECK(after([](BaselineRow& row) { row.times["time parameterize"] = 250.0; }, {.times = false}).passed());
+  CHECK(after([](BaselineRow& row) { row.numbers["psnr_db at 512 bytes"] -= 0.005; }).moved.empty());
+}
+
+TEST_CASE("improvements and new rows are told and pass; what may not change fails either way") {
+  const CheckResult better = after([](BaselineRow& row) {
+    row.numbers["psnr_db at 512 bytes"] += 1.0;
+    row.numbers["remesh_error"] = 5e-5;
+  });
+  CHECK(better.passed());
+  CHECK(better.moved.size() == 2);
+  CHECK_FALSE(after([](BaselineRow& row) { row.numbers["level"] = 5; }).passed());
+  CHECK_FALSE(after([](BaselineRow& row) { row.options["gamma"] = "0"; }).passed());
+  Baseline more = sample_run();
+  more.rows.push_back(more.rows.front());
+  more.rows.back().label = "draco";
+  CHECK(check(sample_run(), more, {}).passed());
+  CHECK(check(sample_run(), more, {}).moved.size() == 1);
+}
+
+TEST_CASE("missing rows, new failures and numbers that are no more fail the check") {
+  Baseline run = sample_run();
+  run.rows.pop_back();
+  CHECK_FALSE(check(sample_run(), run, {}).passed());
+  CHECK_FALSE(after([](BaselineRow& row) { row.cause = "invalid-map"; }).passed());
+  CHECK_FALSE(after([](BaselineRow& row) { row.numbers.erase("level"); }).passed());
+  CHECK_FALSE(after([](BaselineRow& row) {
+                row.numbers["remesh_error"] = std::numeric_limits<double>::quiet_NaN();
+              }).passed());
+}
+
+TEST_CASE("a curve that needs more bytes is a BD-rate regression by just that share") {
+  const CheckResult dearer = after([](BaselineRow& row) {
+    for (RatePoint& point : row.curve) point.bytes *= 1.1;
+  });
+  REQUIRE(dearer.moved.size() == 1);
+  CHECK(dearer.moved.front().what == "bd_rate");
+  CHECK(std::stod(dearer.moved.front().after) == Approx(10.0));
+  CHECK_FALSE(dearer.passed());
+  const CheckResult apart = after([](BaselineRow& row) {
+    for (RatePoint& point : row.curve) point.psnr_db += 60.0;
+  });
+  CHECK_FALSE(apart.passed());
+  CHECK(apart.moved.front().after.find("do not overlap") != std::string::npos);
+}
