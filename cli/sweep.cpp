@@ -11,6 +11,7 @@
 #include "cli/options.h"
 #include "cli/report.h"
 #include "cli/summary_report.h"
+#include "experiments/slurm.h"
 #include "experiments/stage_runner.h"
 #include "experiments/worker.h"
 
@@ -67,7 +68,12 @@ int run_sweep(Options& options, Context& context) {
   const Recipe recipe = read_recipe(options.recipe, options.models);
   if (options.dry_run || options.status) {
     Json further = Json::object();
-    if (options.status) further["sweep_at_work"] = sweep_at_work(options.store);
+    if (options.status) {
+      further["sweep_at_work"] = sweep_at_work(options.store);
+      const SlurmState slurm = slurm_state(options.store);
+      if (!slurm.job.empty())
+        further["slurm"] = {{"job", slurm.job}, {"running", slurm.running}, {"pending", slurm.pending}};
+    }
     print_cells(context, planned_cells(recipe, options.store), further);
     return 0;
   }
@@ -107,8 +113,9 @@ void add_sweep(CLI::App& app, Context& context) {
   command.texts("--models", options->models, "PATTERN...", "surfaces instead of the recipe's");
   command.integer("--jobs", options->sweep.jobs, 0, kMostJobs,
                   "worker processes, 0 for one a core; fewer run where memory is short");
+  command.flag("--slurm", options->sweep.slurm, "as a Slurm job array; called again, it waits for the one under way");
   command.flag("--dry-run", options->dry_run, "list the cells and what is done of them; change nothing");
-  command.flag("--status", options->status, "the same, and whether a sweep is at work");
+  command.flag("--status", options->status, "the same, and what is at work here and in Slurm");
   command.flag("--fail-fast", options->sweep.fail_fast, "stop at the first cell that fails");
   command.flag("--retry-failed", options->sweep.retry_failed, "run failed cells again");
   command.exclude("--dry-run", "--status");

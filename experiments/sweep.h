@@ -15,6 +15,7 @@ struct SweepOptions {
   int jobs = 0;
   bool fail_fast = false;     ///< stop at the first cell that fails
   bool retry_failed = false;  ///< forget failures; those from a crash or lack of memory are always forgotten
+  bool slurm = false;         ///< as a Slurm job array instead of processes here (slurm.h)
   std::string program;        ///< the gsp program, which workers run
 };
 
@@ -27,7 +28,7 @@ struct SweepResult {
 /// Runs all cells of a recipe that have not run, in worker processes, and writes FOLDER/curve.csv. Whatever ends it, the
 /// next call goes on: at most the stages in flight are lost, and the store ends up the same but for times. A cell that
 /// fails, even by crashing its worker, is a result with its cause, and the others go on.
-/// Throws Error: Cancelled; CannotWrite, also where another sweep is at work on the folder; ToolMissing.
+/// Throws Error: Cancelled; CannotWrite, also where another sweep or its Slurm job is at work on the folder; ToolMissing.
 SweepResult sweep(const Recipe& recipe, const std::string& folder, const SweepOptions& options, Progress& progress);
 
 /// The recipe's cells as they stand in the folder (which need not exist), without changing anything.

@@ -13,10 +13,10 @@ struct WorkerEnd {
   int signal = 0;  ///< that ended it, 0 where none did
 };
 
-/// A child process that runs one task and writes lines to its standard output. Destroying it kills it.
+/// A child process that writes lines to its standard output. Destroying it kills it.
 class Worker {
  public:
-  /// Starts `program` (a path) with arguments. Throws Error(ToolMissing).
+  /// Starts `program` (a path, or a name to look up) with arguments. Throws Error(ToolMissing).
   Worker(const std::string& program, const std::vector<std::string>& arguments);
   ~Worker();
   Worker(const Worker&) = delete;

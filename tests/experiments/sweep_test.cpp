@@ -8,8 +8,11 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <thread>
 
+#include "experiments/check.h"
+#include "experiments/meter.h"
 #include "experiments/worker.h"
 #include "mesh/io.h"
 #include "mesh/random.h"
@@ -155,6 +158,41 @@ TEST_CASE("files that were damaged or deleted are made again where something nee
   const SweepResult second = study.run("wavelet = \"butterfly\"\n", "torus.ply");
   CHECK(count(second.cells, CellStatus::Done) == 1);
   CHECK(fs::exists(second.cells.front().artefact("map")));
+}
+
+TEST_CASE("a gamma changed to 0, or a wavelet broken on purpose, fails the check, which names the rows") {
+  const Study study;
+  const std::vector<StoredCell> cells = study.run("method = [\"gsp\", \"draco\"]\n", "bumpy.ply").cells;
+  const Baseline baseline = baseline_of("study", cells);
+  CHECK(check(baseline, baseline_of("study", cells), {}).passed());
+  const auto failing_labels = [&](const std::vector<StoredCell>& now) {
+    const CheckResult result = check(baseline, baseline_of("study", now), {.times = false});
+    CHECK_FALSE(result.passed());
+    std::set<std::string> labels;
+    for (const Movement& movement : result.moved)
+      if (movement.fails()) labels.insert(movement.model + ' ' + movement.label);
+    return labels;
+  };
+  const std::set<std::string> only_gsp = {"bumpy gsp"};
+  CHECK(failing_labels(study.run("method = [\"gsp\", \"draco\"]\ngamma = 0\n", "bumpy.ply").cells) == only_gsp);
+
+  // A synthesis filter that loses what it should add on the finest level, in the decoder alone.
+  std::vector<StoredCell> broken = cells;
+  const std::string stream = read_file(cells.front().artefact("stream"));
+  const Mesh surface = read_mesh(study.file("bumpy.ply"));
+  const Meter meter(surface, "bumpy", 1);
+  Progress silent;
+  for (CurvePoint& point : broken.front().stages.back().points) {
+    SemiregularMesh decoded = decode({stream.begin(), stream.end()}, point.bytes);
+    const auto levels = subdivision_levels(decoded.base_vertices, decoded.base_faces, decoded.level);
+    const SubdivisionLevel& coarse = levels[levels.size() - 2];
+    for (std::size_t e = 0; e < coarse.edges.size(); ++e)
+      decoded.positions[static_cast<std::size_t>(coarse.vertex_count) + e] =
+          0.5 * (decoded.positions[static_cast<std::size_t>(coarse.edges[e][0])] +
+                 decoded.positions[static_cast<std::size_t>(coarse.edges[e][1])]);
+    point = meter.measure(decoded.mesh(), point.bytes, 2000, silent);
+  }
+  CHECK(failing_labels(broken) == only_gsp);
 }
 
 TEST_CASE("one sweep at a time works on a folder, and fail-fast stops at the first failure") {
