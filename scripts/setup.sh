@@ -13,6 +13,8 @@ gsp_packages=(
   libcli11-dev nlohmann-json3-dev libfmt-dev libtomlplusplus-dev libsqlite3-dev libxxhash-dev catch2 libcgal-dev libbenchmark-dev gnuplot-nox
   libpng-dev
 )
+# A cluster of one node, for the test of sweeps through Slurm.
+[ "${CI-}" != true ] || gsp_packages+=(slurm-wlm munge)
 
 say() { printf '%s\n' "$*" >&2; }
 
