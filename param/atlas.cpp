@@ -97,7 +97,7 @@ bool Atlas::reassign(int vertex) {
 
 void Atlas::reassign_all() {
   for (int v = 0; v < static_cast<int>(patch.size()); ++v)
-    if (patch[v] >= 0 && corner[v] < 0 && !surface->halfedges.boundary_vertex(v)) reassign(v);
+    if (is_free(v)) reassign(v);
 }
 
 Atlas::FaceFrame Atlas::face_frame(int face) const {

@@ -51,6 +51,11 @@ class Atlas {
     return forward ? transition[edge] : transition[edge].inverse();
   }
 
+  /// Whether the vertex may go anywhere: it is neither a patch corner nor on a boundary, nor isolated.
+  bool is_free(int vertex) const {
+    return patch[vertex] >= 0 && corner[vertex] < 0 && !surface->halfedges.boundary_vertex(vertex);
+  }
+
   /// Changes the chart of a vertex that is no corner; `change` maps the old chart to the new one.
   void change_chart(int vertex, int chart, const Transition& change);
 
@@ -58,7 +63,7 @@ class Atlas {
   /// leaves the vertex as it was, where the walk leaves the base or turns around a corner without an end.
   bool reassign(int vertex);
 
-  /// The same for all vertices that are neither patch corners nor on a boundary.
+  /// The same for all free vertices.
   void reassign_all();
 
   /// Transitions of the face's corners into a common chart, that of corner `reference` (0..2). Around a face no corner of

@@ -125,11 +125,6 @@ bool EdgePaths::keep(int edge, const std::vector<int>& path) {
   return true;
 }
 
-void EdgePaths::set(int edge, const std::vector<int>& path) {
-  if (!keep(edge, path)) return;
-  for (int t : path) crossing_[t].push_back(edge);
-}
-
 void EdgePaths::finish(const Surface& surface, const TriangleComplex& complex, const Star& star,
                        const std::vector<RingTriangle>& triangles, const std::vector<int>& slots, const std::vector<Location>& locations) {
   slots_ = slots;

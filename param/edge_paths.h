@@ -22,9 +22,6 @@ class EdgePaths {
               const std::vector<RingTriangle>& triangles, const std::vector<int>& slots,
               const std::vector<Location>& locations);
 
-  /// Replaces the list of an edge.
-  void set(int edge, const std::vector<int>& path);
-
   /// The list of an edge from its start (`edge_halfedge`'s tail) to its end; empty where it holds none.
   const std::vector<int>& path(int edge) const;
 

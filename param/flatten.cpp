@@ -11,7 +11,8 @@ namespace gsp {
 
 namespace {
 constexpr double kSmallestAngle = 1e-3;        // radians, so that coincident neighbours keep an order
-constexpr double kSmallestRadius = 1e-3;       // of the largest
+constexpr double kSmallestRadius = 0.01;       // of the largest, in the plane
+constexpr double kLargestPower = 4.0;           // of radii, so that spikes do not tear neighbours to the rim and to 0
 constexpr double kLargestAngle = 0.92 * std::numbers::pi;  // of one triangle in the plane
 }  // namespace
 
@@ -47,7 +48,7 @@ void flatten_star(const std::vector<Vec3>& positions, const Star& star, std::vec
   ring.resize(n);
   double direction = 0.0;
   for (int k = 0; k < n; ++k) {
-    const double r = std::pow(std::max(radius[k] / largest, kSmallestRadius), power);
+    const double r = std::max(std::pow(radius[k] / largest, std::min(power, kLargestPower)), kSmallestRadius);
     ring[k] = star.boundary && k == n - 1 ? Complex(-r, 0.0) : std::polar(r, direction);
     if (k < wedges) direction += angle[k];
   }

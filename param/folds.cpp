@@ -28,8 +28,10 @@ bool upright(Complex a, Complex b, Complex c) { return chart_area(a, b, c) > kSm
 Folds find_folds(const Atlas& atlas) {
   const Surface& surface = *atlas.surface;
   Folds folds;
-  // Round a vertex inside the surface the faces cover every direction once: those that cover its chart's real axis are
-  // counted. At corners and on boundaries the angles are summed.
+  // Round a vertex inside the surface the faces cover every direction once: those that cover one direction of its chart are
+  // counted, one in which no edge is likely to lie, as many do along the edges of the chart. At corners and on boundaries the
+  // angles are summed.
+  const Complex direction = std::polar(1.0, 0.7231);
   std::vector<double> angle(atlas.patch.size(), 0.0);
   std::vector<int> turns(atlas.patch.size(), 0);
   std::vector<char> beside_fold(atlas.patch.size(), 0);
@@ -48,7 +50,7 @@ Folds find_folds(const Atlas& atlas) {
         angle[t[k]] += angle_at(z, k);
         continue;
       }
-      const Complex axis = omega_power(frame.to_chart[k].rotation);
+      const Complex axis = omega_power(frame.to_chart[k].rotation) * direction;
       turns[t[k]] += cross(z[(k + 1) % 3] - z[k], axis) >= 0.0 && cross(axis, z[(k + 2) % 3] - z[k]) > 0.0;
     }
   }
@@ -57,6 +59,24 @@ Folds find_folds(const Atlas& atlas) {
     if (by_angle(v) ? !is_right_angle_sum(atlas, v, angle[v]) : turns[v] != 1) folds.vertices.push_back(v);
   }
   return folds;
+}
+
+FoldRings rings_around(const Surface& surface, const Folds& folds, int most) {
+  FoldRings rings;
+  rings.distance.assign(surface.mesh.positions.size(), -1);
+  const auto reach = [&](int v, int distance) {
+    if (rings.distance[v] >= 0) return;
+    rings.distance[v] = distance;
+    rings.vertices.push_back(v);
+  };
+  for (int f : folds.faces)
+    for (int v : surface.mesh.faces[f]) reach(v, 0);
+  for (int v : folds.vertices) reach(v, 0);
+  for (std::size_t i = 0; i < rings.vertices.size(); ++i) {
+    const int v = rings.vertices[i], distance = rings.distance[v];
+    if (distance < most) surface.for_each_neighbour(v, [&](int w, int, bool) { reach(w, distance + 1); });
+  }
+  return rings;
 }
 
 LocalMap local_map(const Atlas& atlas, int vertex) {

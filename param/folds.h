@@ -19,6 +19,13 @@ struct Folds {
 /// O(F). Vertices of folded faces are not listed again under `vertices`.
 Folds find_folds(const Atlas& atlas);
 
+/// The vertices within so many edges of the folds, nearest first, and per vertex of the surface how many; -1 beyond.
+struct FoldRings {
+  std::vector<int> vertices;
+  std::vector<int> distance;
+};
+FoldRings rings_around(const Surface& surface, const Folds& folds, int most);
+
 /// How the faces around one vertex lie.
 enum class LocalMap {
   Injective,  ///< all upright, and round the vertex exactly as often as they should

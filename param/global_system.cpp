@@ -82,8 +82,7 @@ std::vector<Complex> solve_global(const Atlas& atlas, const EdgeWeights& weights
 std::vector<char> interior_vertices(const Atlas& atlas) {
   std::vector<char> interior(atlas.patch.size());
   for (std::size_t v = 0; v < interior.size(); ++v)
-    interior[v] = atlas.patch[v] >= 0 && atlas.corner[v] < 0 &&
-                  !atlas.surface->halfedges.boundary_vertex(static_cast<int>(v));
+    interior[v] = atlas.is_free(static_cast<int>(v));
   return interior;
 }
 

@@ -13,7 +13,6 @@
 #include "param/global_system.h"
 #include "param/lower_distortion.h"
 #include "param/maps_smoothing.h"
-#include "param/refine.h"
 #include "param/relax_corners.h"
 #include "param/repair.h"
 #include "param/simplify.h"
@@ -32,11 +31,8 @@ constexpr int kGuardedRounds = 3;
 constexpr int kPatience = 2;                // rounds before the paper's iteration can be given up,
 constexpr double kHopeless = 2e-4;          // where a larger share of faces is folded
 constexpr int kRings = 16;                    // of the discs that are untangled in the end
-constexpr std::size_t kTooManyFolds = 200;    // to be worth refining around
-constexpr int kMostGrowth = 4;                // of the surface by splitting long edges
-constexpr int kMostRefinements = 2;         // of the surface around folds that do not come free
 constexpr int kAutomaticShare = 64;         // vertices per base vertex, of which the automatic stop falls short or not
-constexpr double kLongestEdge[] = {0.25, 0.125, 0.0625};  // of the edge of an equilateral patch of mean area
+constexpr double kLongestEdge = 0.25;       // of the edge of an equilateral patch of mean area
 
 void check_options(const ParameterizeOptions& options) {
   if (options.base_vertices != 0 && options.base_vertices < 4)
@@ -65,50 +61,6 @@ std::vector<std::string> provenance(const ParameterizeOptions& options, Method m
   throw Error(Cause::InvalidMap, counts, Element::Face, folds.faces.front());
 }
 
-/// Splits the edges of all faces that touch a fold.
-void refine_folds(Atlas& atlas, const Folds& folds) {
-  const Surface& surface = *atlas.surface;
-  std::vector<int> vertices = folds.vertices;
-  for (int f : folds.faces) vertices.insert(vertices.end(), surface.mesh.faces[f].begin(), surface.mesh.faces[f].end());
-  std::vector<int> edges;
-  for (int v : vertices) {
-    const int start = surface.halfedges.outgoing[v];
-    int h = start;
-    do {
-      for (int k = 0; k < 3; ++k) edges.push_back(surface.edge_of[h - h % 3 + k]);
-      h = surface.halfedges.rotate_ccw(h);
-    } while (h >= 0 && h != start);
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  split_edges(atlas, edges);
-}
-
-/// Takes the folds out of a map, refining the surface around those that do not come free at once.
-Folds unfold(Atlas& atlas, int refinements, Progress& progress) {
-  repair_folds(atlas, kRings, progress);
-  Folds folds = find_folds(atlas);
-  for (int i = 0; i < refinements && !folds.none() && folds.faces.size() < kTooManyFolds; ++i) {
-    refine_folds(atlas, folds);
-    repair_folds(atlas, kRings, progress);
-    folds = find_folds(atlas);
-  }
-  return folds;
-}
-
-/// The initial map without its folds; which it keeps, where it keeps some, is told by `folds`.
-Atlas injective_start(const SimplifyResult& simplified, Folds& folds, Progress& progress) {
-  Atlas atlas = unfolded_map(simplified.atlas.surface, simplified.removals, progress);
-  refine_at_corners(atlas);
-  seat_boundary(atlas);
-  folds = unfold(atlas, kMostRefinements, progress);
-  if (!folds.none()) return atlas;
-  atlas.reassign_all();
-  const int added = atlas.surface->mesh.vertex_count() - simplified.atlas.surface->mesh.vertex_count();
-  if (added > 0) progress.note(std::to_string(added) + " vertices were added where the map needs more freedom");
-  return atlas;
-}
-
 /// What the methods on one base complex share.
 struct Start {
   SimplifyResult simplified;
@@ -134,11 +86,9 @@ class Best {
   int round_ = -1;
 };
 
-/// The paper's iteration (§3.3, steps 2 to 4) from the initial map, folds and all, as long as few faces fold. It drives
-/// corners toward a conformal map, which starves long limbs until they fold.
+/// The paper's iteration (§3.3, steps 2 to 4), folds and all, as long as few faces fold. It drives corners toward a
+/// conformal map, which starves long limbs until they fold.
 Atlas solve_and_relax(Atlas atlas, const ParameterizeOptions& options, ParameterizeResult& result, Progress& progress) {
-  refine_at_corners(atlas);
-  seat_boundary(atlas);
   atlas.position = boundary_by_arc_length(atlas);
   const auto weights = mean_value_weights(*atlas.surface);
   Best best;
@@ -160,8 +110,8 @@ Atlas solve_and_relax(Atlas atlas, const ParameterizeOptions& options, Parameter
 /// The paper's solution. Where its folds do not come free it is approached over maps that have none.
 Atlas mean_value_map(const Start& start, const ParameterizeOptions& options, ParameterizeResult& result,
                      Progress& progress) {
-  Atlas atlas = solve_and_relax(start.simplified.atlas, options, result, progress);
-  if (unfold(atlas, 0, progress).none()) {
+  Atlas atlas = solve_and_relax(start.injective, options, result, progress);
+  if (repair_folds(atlas, kRings, progress).none()) {
     atlas.reassign_all();
     return atlas;
   }
@@ -208,35 +158,35 @@ Atlas smooth_map(const Start& start, const ParameterizeOptions& options, Paramet
 
 /// Edge of the equilateral triangle as large as a patch on average, for so many base vertices.
 double patch_edge(const Mesh& mesh, int base_vertices) {
-  double area = 0.0;
-  for (const Triangle& t : mesh.faces)
-    area += 0.5 * (mesh.positions[t[1]] - mesh.positions[t[0]]).cross(mesh.positions[t[2]] - mesh.positions[t[0]]).norm();
   const double patches = 2.0 * std::max(base_vertices > 0 ? base_vertices : mesh.vertex_count() / kAutomaticShare, 4);
-  return std::sqrt(area / patches / kChartArea);
+  return std::sqrt(surface_area(mesh) / patches / kChartArea);
 }
 
-/// Simplifies the surface, finer where a coarser one leaves the map too little freedom to be free of folds.
-/// Throws Error(InvalidMap) where the finest is too coarse.
-Start make_start(const Mesh& mesh, bool injective, const ParameterizeOptions& options, Progress& progress) {
-  Mesh refined = mesh;
-  int added = split_boundary_chords(refined);
+/// The surface with edges short enough for the patches, and none that joins two boundaries.
+Mesh refined(Mesh mesh, const ParameterizeOptions& options, Progress& progress) {
+  int added = split_boundary_chords(mesh);
   if (added > 0) progress.note(std::to_string(added) + " interior edges between boundary vertices were split");
-  const double patch = patch_edge(refined, options.base_vertices);
-  Folds folds;
-  for (double longest : kLongestEdge) {
-    added = split_long_edges(refined, longest * patch);
-    if (added > 0) progress.note(std::to_string(added) + " vertices were added on edges that are long for the patches");
-    if (!folds.none() && refined.vertex_count() > kMostGrowth * mesh.vertex_count()) break;
-    Start start{simplify(std::make_shared<const Surface>(refined), options, progress), {}};
-    const int left = start.simplified.atlas.base.vertex_count();
-    if (options.base_vertices > 0 && left > options.base_vertices)
-      progress.note("no further vertex can be removed: the base has " + std::to_string(left) + " vertices instead of " +
-                    std::to_string(options.base_vertices));
-    if (injective) start.injective = injective_start(start.simplified, folds, progress);
-    if (folds.none()) return start;
-    progress.note(std::to_string(folds.faces.size()) + " faces stay folded: trying again on a finer surface");
-  }
-  give_up(folds);
+  added = split_long_edges(mesh, kLongestEdge * patch_edge(mesh, options.base_vertices));
+  if (added > 0) progress.note(std::to_string(added) + " vertices were added on edges that are long for the patches");
+  return mesh;
+}
+
+/// Simplifies the surface, and makes the map without folds where it is asked for.
+Start make_start(const Mesh& mesh, bool injective, const ParameterizeOptions& options, Progress& progress) {
+  const auto surface = std::make_shared<const Surface>(refined(mesh, options, progress));
+  Start start{simplify(surface, options, progress), {}};
+  const int left = start.simplified.atlas.base.vertex_count();
+  if (options.base_vertices > 0 && left > options.base_vertices)
+    progress.note("no further vertex can be removed: the base has " + std::to_string(left) + " vertices instead of " +
+                  std::to_string(options.base_vertices));
+  if (!injective) return start;
+  start.injective = injective_map(surface, start.simplified.removals, progress);
+  const int added = start.injective.surface->mesh.vertex_count() - surface->mesh.vertex_count();
+  if (added > 0) progress.note(std::to_string(added) + " vertices were added where the map needs more freedom");
+  const Folds folds = repair_folds(start.injective, kRings, progress);
+  if (!folds.none()) give_up(folds);
+  start.injective.reassign_all();
+  return start;
 }
 
 ParameterizeResult finish(const Start& start, Method method, const ParameterizeOptions& options,

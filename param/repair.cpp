@@ -68,43 +68,19 @@ class Repair {
   Repair(Atlas& atlas, int most_rings, Progress& progress)
       : atlas_(atlas), surface_(*atlas.surface), most_rings_(most_rings), progress_(progress) {}
 
-  RepairReport run() {
-    RepairReport report;
+  Folds run() {
     Folds folds = find_folds(atlas_);
-    report.flipped_before = static_cast<int>(folds.faces.size());
     for (int rings = 1; rings <= most_rings_ && !folds.none(); rings *= 2) {
-      untangle_all(folds, rings, report);
+      untangle_all(folds, rings);
       folds = find_folds(atlas_);
     }
-    std::sort(report.moved.begin(), report.moved.end());
-    report.moved.erase(std::unique(report.moved.begin(), report.moved.end()), report.moved.end());
-    return report;
+    return folds;
   }
 
  private:
-  bool is_free(int v) const { return atlas_.corner[v] < 0 && !surface_.halfedges.boundary_vertex(v); }
-
-  void untangle_all(const Folds& folds, int rings, RepairReport& report) {
-    // Rings of vertices around the folded faces; those that meet form one disc.
-    std::vector<int> distance(surface_.mesh.positions.size(), -1);
-    std::vector<int> reached;
-    const auto start = [&](int v) {
-      if (distance[v] >= 0) return;
-      distance[v] = 0;
-      reached.push_back(v);
-    };
-    for (int f : folds.faces)
-      for (int v : surface_.mesh.faces[f]) start(v);
-    for (int v : folds.vertices) start(v);
-    for (std::size_t i = 0; i < reached.size(); ++i) {
-      const int v = reached[i];
-      if (distance[v] >= rings) continue;
-      surface_.for_each_neighbour(v, [&](int w, int, bool) {
-        if (distance[w] >= 0) return;
-        distance[w] = distance[v] + 1;
-        reached.push_back(w);
-      });
-    }
+  void untangle_all(const Folds& folds, int rings) {
+    // Those that meet form one disc.
+    const auto& [reached, distance] = rings_around(surface_, folds, rings);
     std::vector<char> taken(distance.size(), 0);
     for (int seed : reached) {
       if (taken[seed]) continue;
@@ -116,15 +92,15 @@ class Repair {
           taken[w] = 1;
           region.push_back(w);
         });
-      untangle(region, report);
+      untangle(region);
       progress_.report("repair", 0.5);
     }
   }
 
-  void untangle(const std::vector<int>& region, RepairReport& report) {
+  void untangle(const std::vector<int>& region) {
     std::vector<int> vertices, faces;
     for (int v : region) {
-      if (!is_free(v)) continue;
+      if (!atlas_.is_free(v)) continue;
       vertices.push_back(v);
       const int start = surface_.halfedges.outgoing[v];
       int h = start;
@@ -150,12 +126,8 @@ class Repair {
     // Beyond the rim faces may still be folded.
     const bool miswound = std::any_of(touched.begin(), touched.end(),
                                       [&](int v) { return local_map(atlas_, v) == LocalMap::Miswound; });
-    if (miswound) {
-      for (std::size_t i = 0; i < vertices.size(); ++i) atlas_.position[vertices[i]] = before[i];
-      return;
-    }
-    ++report.regions;
-    report.moved.insert(report.moved.end(), vertices.begin(), vertices.end());
+    if (!miswound) return;
+    for (std::size_t i = 0; i < vertices.size(); ++i) atlas_.position[vertices[i]] = before[i];
   }
 
   Atlas& atlas_;
@@ -166,7 +138,7 @@ class Repair {
 
 }  // namespace
 
-RepairReport repair_folds(Atlas& atlas, int most_rings, Progress& progress) {
+Folds repair_folds(Atlas& atlas, int most_rings, Progress& progress) {
   return Repair(atlas, most_rings, progress).run();
 }
 

@@ -9,8 +9,6 @@ namespace gsp {
 
 namespace {
 
-constexpr int kLongestTrace = 4096;
-
 /// From a face around a corner to the corner's own chart.
 Transition to_home(const Atlas& atlas, int vertex, int face) {
   if (atlas.corner[vertex] < 0) return {};
@@ -135,64 +133,6 @@ Atlas ShrinkingMap::atlas() const {
   atlas.transition.resize(surface_->edge_count());
   for (int e = 0; e < surface_->edge_count(); ++e) atlas.transition[e] = edge_transition(atlas, numbering, e);
   return atlas;
-}
-
-/// The triangles that the edge's straight image crosses, from its start to its end; of one that starts or ends at a corner
-/// without the turn about it. False where it does not arrive where the atlas says.
-bool ShrinkingMap::trace(const Atlas& atlas, const Numbering& numbering, int edge, std::vector<int>& path) const {
-  const int h = surface_->edge_halfedge[edge];
-  const int start = surface_->halfedges.from(h), end = surface_->halfedges.to(h);
-  const bool reversed = atlas.corner[start] >= 0;
-  const int from = reversed ? end : start, to = reversed ? start : end;
-  const Transition expected = atlas.towards(edge, !reversed);
-  Transition here;  // from the walk's present chart to that of `from`
-  int chart = atlas.patch[from];
-  const Complex a = atlas.position[from], b = expected.apply(atlas.position[to]);
-  path.assign(1, numbering.slot_of[chart]);
-  int entered = -1;
-  const auto arrived = [&] {
-    if (atlas.corner[to] < 0) return chart == atlas.patch[to] && here == expected;
-    const BaseFan& fan = atlas.fans[atlas.corner[to]];
-    const int s = fan.find(chart);
-    return s >= 0 && std::abs(here.apply(kChartCorners[fan.sectors[s].corner].value()) - b) < 1e-9;
-  };
-  while (!arrived()) {
-    if (path.size() > kLongestTrace) return false;
-    // The edge by which the segment leaves: the one whose ends lie on either side of it, ahead.
-    int leave = -1;
-    for (int k = 0; k < 3; ++k) {
-      if (3 * chart + k == entered) continue;
-      const Complex p = here.apply(kChartCorners[k].value()), q = here.apply(kChartCorners[(k + 1) % 3].value());
-      if (cross(b - a, p - a) <= 0.0 && cross(b - a, q - a) > 0.0) leave = k;
-    }
-    if (leave < 0 || atlas.base.twins[3 * chart + leave] < 0) return false;
-    entered = atlas.base.twins[3 * chart + leave];
-    here = here * atlas.base.across(3 * chart + leave).inverse();
-    chart = entered / 3;
-    path.push_back(numbering.slot_of[chart]);
-  }
-  if (reversed) std::reverse(path.begin(), path.end());
-  return true;
-}
-
-bool ShrinkingMap::load(const Atlas& atlas, const std::vector<int>& moved) {
-  const Numbering numbering = number_triangles();
-  std::vector<int> edges;
-  for (int v : moved) surface_->for_each_neighbour(v, [&](int, int edge, bool) { edges.push_back(edge); });
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  std::vector<std::vector<int>> paths(edges.size());
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    if (!trace(atlas, numbering, edges[i], paths[i])) return false;
-  for (std::size_t i = 0; i < edges.size(); ++i) paths_.set(edges[i], paths[i]);
-  for (int v : moved) {
-    std::vector<int>& left = points_[locations_[v].triangle];
-    left.erase(std::find(left.begin(), left.end(), v));
-    const auto w = chart_barycentric(atlas.position[v]);
-    locations_[v] = {numbering.slot_of[atlas.patch[v]], w[1], w[2]};
-    points_[locations_[v].triangle].push_back(v);
-  }
-  return true;
 }
 
 }  // namespace gsp

@@ -16,8 +16,7 @@ struct Removal {
   std::vector<RingTriangle> triangles;
 };
 
-/// The surface's map onto the shrinking complex T^i of §3.1: a homeomorphism up to the straightening of edges. Can be copied,
-/// so that removals can be tried.
+/// The surface's map onto the shrinking complex T^i of §3.1: a homeomorphism up to the straightening of edges.
 class ShrinkingMap {
  public:
   explicit ShrinkingMap(std::shared_ptr<const Surface> surface);
@@ -34,10 +33,6 @@ class ShrinkingMap {
   /// The map onto the present complex with every edge classified. O(V).
   Atlas atlas() const;
 
-  /// Takes over where an atlas of the present complex has moved some vertices, beside which it must be free of folds: their
-  /// edges are then straight. Returns false, and is unchanged, where rounding leaves an edge's way in doubt.
-  bool load(const Atlas& atlas, const std::vector<int>& moved);
-
  private:
   struct Numbering {
     std::vector<int> face_of;  ///< slot -> base face, -1
@@ -45,7 +40,6 @@ class ShrinkingMap {
   };
   Numbering number_triangles() const;
   Transition edge_transition(const Atlas& atlas, const Numbering& numbering, int edge) const;
-  bool trace(const Atlas& atlas, const Numbering& numbering, int edge, std::vector<int>& path) const;
 
   std::shared_ptr<const Surface> surface_;
   TriangleComplex complex_;

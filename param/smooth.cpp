@@ -16,30 +16,6 @@ constexpr int kManyRings = 64;
 constexpr double kShortestStep = 1.0 / 16.0;
 constexpr int kMostSteps = 12;
 
-/// Distance in edges from the folds, up to `most`; -1 beyond.
-std::vector<int> rings_around(const Surface& surface, const Folds& folds, int most) {
-  std::vector<int> distance(surface.mesh.positions.size(), -1);
-  std::vector<int> reached;
-  const auto start = [&](int v) {
-    if (distance[v] >= 0) return;
-    distance[v] = 0;
-    reached.push_back(v);
-  };
-  for (int f : folds.faces)
-    for (int v : surface.mesh.faces[f]) start(v);
-  for (int v : folds.vertices) start(v);
-  for (std::size_t i = 0; i < reached.size(); ++i) {
-    const int v = reached[i];
-    if (distance[v] >= most) continue;
-    surface.for_each_neighbour(v, [&](int w, int, bool) {
-      if (distance[w] >= 0) return;
-      distance[w] = distance[v] + 1;
-      reached.push_back(w);
-    });
-  }
-  return distance;
-}
-
 /// Carries a map free of folds toward a goal, without folds.
 class Approach {
  public:
@@ -69,11 +45,10 @@ class Approach {
     for (int rings = 1;; rings *= 2) {
       for (std::size_t v = 0; v < goal_.size(); ++v)
         trial.position[v] = atlas_.position[v] + share[v] * (goal_[v] - atlas_.position[v]);
-      repair_folds(trial, kRings, progress_);
-      const Folds folds = find_folds(trial);
+      const Folds folds = repair_folds(trial, kRings, progress_);
       if (folds.none()) break;
       if (rings > most_rings) return false;
-      const std::vector<int> distance = rings_around(*atlas_.surface, folds, 3 * rings);
+      const std::vector<int> distance = rings_around(*atlas_.surface, folds, 3 * rings).distance;
       held_ = 0;
       for (std::size_t v = 0; v < goal_.size(); ++v) {
         if (distance[v] >= 0) share[v] *= std::clamp(0.5 * (distance[v] - rings) / rings, 0.0, 1.0);

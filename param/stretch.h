@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "param/atlas.h"
 
 namespace gsp {
@@ -10,8 +8,5 @@ namespace gsp {
 /// grows where the surface is sampled too thinly, so it tells whether a further round of relaxation helps the remesh.
 /// A face that is folded or nearly so counts as if its image had 1/1000 of its fair share of the base. O(F).
 double l2_stretch(const Atlas& atlas);
-
-/// #V: the stretch at each vertex, the root of the area-weighted mean over the faces around it.
-std::vector<double> vertex_stretch(const Atlas& atlas);
 
 }  // namespace gsp

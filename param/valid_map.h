@@ -9,10 +9,10 @@
 
 namespace gsp {
 
-/// A map onto the base complex in which every face has positive area and every vertex is wound rightly. Makes the removals
-/// once more and takes out, at stations on the way, the folds that the straightening of edges has brought about since the
-/// last one: few and shallow at a time, where in the end they would lie in each other's way. The stations move closer
-/// together where that fails. Where a single removal cannot be unfolded its folds stay, so ask `find_folds`.
-Atlas unfolded_map(std::shared_ptr<const Surface> surface, const std::vector<Removal>& removals, Progress& progress);
+/// A map onto the base complex without folds, on a surface that has vertices added where the map needs them. Makes the
+/// removals once more, carrying a homeomorphism (`OverlayMap`), and takes out the vertices it can do without. Pieces too
+/// small for rounding may be left folded where the surface is degenerate, so ask `find_folds`. Throws Error(InvalidMap,
+/// Cancelled).
+Atlas injective_map(std::shared_ptr<const Surface> surface, const std::vector<Removal>& removals, Progress& progress);
 
 }  // namespace gsp

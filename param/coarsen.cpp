@@ -1,0 +1,94 @@
+#include "param/coarsen.h"
+
+namespace gsp {
+
+namespace {
+
+constexpr int kPasses = 3;  // a vertex may have to wait for its neighbours
+
+class Coarsener {
+ public:
+  Coarsener(const Atlas& atlas, RefinedSurface refined, const RefinedSurface::Compact& compact)
+      : refined_(std::move(refined)),
+        patch_(refined_.vertex_count(), -1),
+        position_(refined_.vertex_count()),
+        transition_(3 * refined_.face_slots()) {
+    for (int v = 0; v < refined_.vertex_count(); ++v) {
+      if (compact.vertex[v] < 0) continue;
+      patch_[v] = atlas.patch[compact.vertex[v]];
+      position_[v] = atlas.position[compact.vertex[v]];
+    }
+    const Surface& surface = *atlas.surface;
+    for (std::size_t h = 0; h < compact.halfedge.size(); ++h)
+      transition_[compact.halfedge[h]] =
+          atlas.towards(surface.edge_of[h], surface.edge_halfedge[surface.edge_of[h]] == static_cast<int>(h));
+  }
+
+  /// Draws an added vertex onto a neighbour if it can be; tells whether it could.
+  bool take_out(int v) {
+    const auto link = [&](int out) {
+      const int back = Halfedges::prev(out);
+      return std::pair(transition_[out].apply(position_[refined_.to(out)]),
+                       transition_[back].inverse().apply(position_[refined_.from(back)]));
+    };
+    int along = -1;
+    refined_.for_each_outgoing(v, [&](int h) {
+      if (along < 0 && refined_.can_collapse(h) && refined_.draws_well(h, position_[v], link)) along = h;
+    });
+    if (along < 0) return false;
+    const Transition to_v = transition_[along], from_v = to_v.inverse();
+    refined_.for_each_outgoing(v, [&](int out) {
+      transition_[out] = from_v * transition_[out];
+      transition_[Halfedges::prev(out)] = transition_[Halfedges::prev(out)] * to_v;
+    });
+    refined_.collapse(along);
+    patch_[v] = -1;
+    return true;
+  }
+
+  void run() {
+    const int first = refined_.original().mesh.vertex_count();
+    for (int pass = 0; pass < kPasses; ++pass) {
+      bool any = false;
+      for (int v = first; v < refined_.vertex_count(); ++v)
+        if (patch_[v] >= 0) any |= take_out(v);
+      if (!any) return;
+    }
+  }
+
+  Atlas finish(const Atlas& before) const {
+    RefinedSurface::Compact compact = refined_.compact();
+    Atlas atlas;
+    atlas.base = before.base;
+    atlas.fans = before.fans;
+    atlas.surface = std::make_shared<const Surface>(std::move(compact.mesh));
+    const int count = atlas.surface->mesh.vertex_count();
+    atlas.patch.assign(count, -1);
+    atlas.position.assign(count, 0.0);
+    atlas.corner.assign(count, -1);
+    for (int v = 0; v < refined_.vertex_count(); ++v) {
+      if (compact.vertex[v] < 0) continue;
+      atlas.patch[compact.vertex[v]] = patch_[v];
+      atlas.position[compact.vertex[v]] = position_[v];
+    }
+    for (int b = 0; b < atlas.base.vertex_count(); ++b) atlas.corner[atlas.base.vertices[b]] = b;
+    for (int h : atlas.surface->edge_halfedge) atlas.transition.push_back(transition_[compact.halfedge[h]]);
+    return atlas;
+  }
+
+ private:
+  RefinedSurface refined_;
+  std::vector<int> patch_;              ///< per vertex, -1 for those that are out
+  std::vector<Complex> position_;       ///< per vertex
+  std::vector<Transition> transition_;  ///< per half-edge, from the chart of its head to that of its tail
+};
+
+}  // namespace
+
+Atlas coarsen(const Atlas& atlas, RefinedSurface refined, const RefinedSurface::Compact& compact) {
+  Coarsener coarsener(atlas, std::move(refined), compact);
+  coarsener.run();
+  return coarsener.finish(atlas);
+}
+
+}  // namespace gsp

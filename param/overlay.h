@@ -1,0 +1,82 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "param/atlas.h"
+#include "param/omega.h"
+#include "param/refined_surface.h"
+#include "param/shrinking_map.h"
+#include "param/triangle_complex.h"
+
+namespace gsp {
+
+/// The surface's map onto the shrinking complex T^i of §3.1 as a homeomorphism, not just for its vertices: the surface is cut
+/// along the edges of the complex, so each of its pieces lies in one triangle and is mapped affinely, upright. A removal lays
+/// the star's pieces into the plane, where they are embedded since its ring is star-shaped about the vertex, and cuts them
+/// along the new edges; vertices that older cuts have added are taken out again where the map stays upright without. The
+/// paper, as MAPS before it, carries the vertices only, and faces fold where their edges are drawn straight.
+class OverlayMap {
+ public:
+  explicit OverlayMap(std::shared_ptr<const Surface> surface);
+
+  /// Fills the hole of the removed vertex. Throws Error(InvalidMap) where rounding has left a piece of the star no area.
+  void remove(const Removal& removal);
+
+  /// The map onto the present complex. The surface's own vertices come first, then those that cuts have added. O(V).
+  Atlas atlas() const { return atlas_on(refined_.compact()); }
+
+  const RefinedSurface& refined() const { return refined_; }
+
+  /// The same without the added vertices that the map does not need (`coarsen`).
+  Atlas coarsened() const;
+
+ private:
+  /// Where a vertex lies on the complex: in a triangle, on an edge between two of its vertices, or at one.
+  struct Place {
+    int triangle = -1;
+    int a = -1, b = -1;
+    double weight1 = 0.0, weight2 = 0.0;  ///< of the triangle's corners 1 and 2; on an edge weight1 is that of b
+  };
+  static bool on_side(const Place& at, int a, int b);
+  static Complex home_position(const Atlas& atlas, int v, const Place& at);
+  static Transition to_home(const Atlas& atlas, int v, int chart, const Place& at);
+  Complex flat_of(int v) const;
+
+  Atlas atlas_on(const RefinedSurface::Compact& compact) const;
+
+  void lay_out(const Removal& removal);
+  void cut(int i, int j);
+  int next_on_cut(int at, int j);
+  bool move_onto_cut(int v, Complex to, double share);
+  void straighten_boundary();
+  void settle(const Removal& removal);
+  void fill(int slot, const RingTriangle& triangle);
+  static double quality(Complex a, Complex b, Complex c);
+  double least_quality(int v, Complex at) const;
+  void relax();
+  bool relax(int v);
+  void coarsen();
+
+  std::shared_ptr<const Surface> surface_;
+  TriangleComplex complex_;
+  RefinedSurface refined_;
+  std::vector<Place> place_;                ///< per vertex
+  std::vector<std::vector<int>> pieces_;    ///< per triangle of the complex, the faces in it
+
+  // Of the removal in hand.
+  Star star_;
+  std::vector<Complex> ring_;
+  std::vector<int> slots_;
+  std::vector<int> region_, region_vertices_;
+  std::vector<int> ring_index_;             ///< per vertex of the surface
+  std::vector<int> star_index_;             ///< per triangle
+  std::vector<Complex> flat_;               ///< per vertex
+  enum class Hold : char { Free, Edge, Ring };  ///< Edge: on an edge that is new
+  std::vector<char> in_region_;             ///< per vertex
+  std::vector<Hold> hold_;                  ///< per vertex
+  enum class PieceState : char { Outside, Open, Filled };
+  std::vector<PieceState> piece_state_;     ///< per face
+};
+
+}  // namespace gsp

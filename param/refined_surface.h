@@ -1,0 +1,103 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "param/lattice.h"
+#include "param/surface.h"
+
+namespace gsp {
+
+constexpr double kThin = 0.05;  ///< `thickness` below which a piece of a surface is not made,
+constexpr double kWorse = 0.5;  ///< unless it becomes no thinner than this share of before
+
+/// Height over longest side of a triangle in the plane; not positive where it is not upright.
+inline double thickness(Complex a, Complex b, Complex c) {
+  return cross(b - a, c - a) / std::max({std::norm(b - a), std::norm(c - b), std::norm(a - c), 1e-300});
+}
+
+/// A surface that is cut finer and coarser again while it stays the same set of points: every vertex knows on which vertex,
+/// edge or face of the original surface it lies, every face in which original face. Original vertices keep their numbers,
+/// added ones come after them and never lie on a boundary.
+class RefinedSurface {
+ public:
+  explicit RefinedSurface(std::shared_ptr<const Surface> original);
+
+  const Surface& original() const { return *original_; }
+  int vertex_count() const { return static_cast<int>(support_.size()); }
+  bool added(int v) const { return v >= original_->mesh.vertex_count(); }
+  int face_slots() const { return static_cast<int>(faces_.size()); }
+  bool alive(int face) const { return faces_[face][0] >= 0; }
+  const Triangle& corners(int face) const { return faces_[face]; }
+  int from(int h) const { return faces_[h / 3][h % 3]; }
+  int to(int h) const { return from(Halfedges::next(h)); }
+  int twin(int h) const { return twin_[h]; }
+
+  /// Calls visit(h) for the half-edges that leave v, counter-clockwise. The last neighbour of a boundary vertex has none.
+  template <class Visit>
+  void for_each_outgoing(int v, Visit&& visit) const {
+    int h = outgoing_[v];
+    if (h < 0) return;
+    if (boundary(v))  // back to the first face of the fan
+      while (twin_[h] >= 0) h = Halfedges::next(twin_[h]);
+    const int start = h;
+    do {
+      visit(h);
+      h = twin_[Halfedges::prev(h)];
+    } while (h >= 0 && h != start);
+  }
+
+  /// Splits the edge of h, which has a twin, at the share 0 < share < 1 of the way from its start. Either face keeps the half
+  /// at the start of its half-edge (h or its twin) and gives the other to a new face, the last two: first that of h.
+  /// Returns the new vertex.
+  int split(int h, double share);
+
+  /// Whether the added vertex from(h) can be drawn along h onto to(h) so that the surface stays what it is.
+  bool can_collapse(int h) const;
+  /// Does so: the two faces beside h die, in the others around from(h) to(h) takes its place.
+  void collapse(int h);
+
+  /// Whether collapsing h leaves a map into the plane upright, with pieces thick enough or hardly thinner than those before.
+  /// from(h) lies at `center`, and link(out) gives the two other corners, in order, of the face of a half-edge `out` that
+  /// leaves it.
+  template <class Link>
+  bool draws_well(int h, Complex center, Link&& link) const {
+    const int n = to(h);
+    double before = 1.0, after = 1.0;
+    const Complex goal = link(h).first;
+    for_each_outgoing(from(h), [&](int out) {
+      const auto [x, y] = link(out);
+      before = std::min(before, thickness(center, x, y));
+      if (to(out) != n && from(Halfedges::prev(out)) != n) after = std::min(after, thickness(goal, x, y));
+    });
+    return after > std::min(kThin, kWorse * before);
+  }
+
+  struct Compact {
+    Mesh mesh;                 ///< the original's vertices, then the added ones; an original face's first piece in its place
+    std::vector<int> vertex;   ///< per vertex here, its number there, -1 for those that were drawn onto others
+    std::vector<int> halfedge; ///< per half-edge there, its number here
+  };
+  Compact compact() const;
+
+ private:
+  struct Support {
+    int edge = -1, face = -1;      ///< both -1 for an original vertex
+    std::array<double, 2> weight{};  ///< share along the edge's direction; weights of the face's corners 1 and 2
+  };
+
+  bool boundary(int v) const { return !added(v) && original_->halfedges.boundary_vertex(v); }
+  std::array<double, 3> weights_in(int v, int original_face) const;
+  void halve(int h, int middle);
+  void join(int a, int b);
+
+  std::shared_ptr<const Surface> original_;
+  std::vector<Triangle> faces_;
+  std::vector<int> twin_, outgoing_;
+  std::vector<int> origin_;  ///< per face
+  std::vector<Support> support_;
+};
+
+}  // namespace gsp
