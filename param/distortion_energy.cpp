@@ -12,6 +12,7 @@ namespace gsp {
 
 namespace {
 
+constexpr double kLeastCurvature = 1e-4;     // of the largest, so that no direction is free
 constexpr double kFlattestReference = 0.05;  // height over longest side of a reference triangle
 
 /// The triangle laid into the plane, kept away from degenerate shapes.
@@ -25,6 +26,43 @@ Eigen::Matrix2d reference_shape(const Mesh& mesh, const Triangle& t, double mean
   const double height = a.norm() > 0.0 ? a.cross(b).norm() / a.norm() : b.norm();
   shape << base, along, 0.0, std::max(height, floor);
   return shape;
+}
+
+/// With singular values s1, s2 and d = s1 s2, the energy of a face is f = (s1/s2 + s2/s1)/2 + λ (d + 1/d)/2. Its Hessian by
+/// the four entries of J = (j1, j2) has two eigenvectors in the plane of the stretches u1 v1ᵀ and u2 v2ᵀ, and the twist and
+/// the flip, (u2 v1ᵀ ∓ u1 v2ᵀ)/√2.
+Eigen::Matrix4d convex_hessian_by_jacobian(Complex j1, Complex j2, double area_weight) {
+  // J z = α z + β conj(z).
+  const Complex i(0.0, 1.0), alpha = 0.5 * (j1 - i * j2), beta = 0.5 * (j1 + i * j2);
+  const double s1 = std::abs(alpha) + std::abs(beta), s2 = std::abs(alpha) - std::abs(beta);
+  const double d = s1 * s2, q = s1 * s1 + s2 * s2, dd = d * d;
+  const double half = 0.5 * area_weight;
+  const double f11 = s2 / (s1 * s1 * s1) + area_weight / (s1 * s1 * d);
+  const double f22 = s1 / (s2 * s2 * s2) + area_weight / (s2 * s2 * d);
+  const double f12 = -0.5 * q / dd + half * (1.0 + 1.0 / dd);
+  const double twist = 0.5 / d - 0.5 * (q - d) / dd + half * (1.0 - 1.0 / dd);
+  const double flip = 0.5 / d + 0.5 * (q + d) / dd - half * (1.0 - 1.0 / dd);
+  const double turn_u = 0.5 * (std::arg(alpha) + std::arg(beta)), turn_v = 0.5 * (std::arg(beta) - std::arg(alpha));
+  const Eigen::Vector2d u1(std::cos(turn_u), std::sin(turn_u)), u2(-u1[1], u1[0]);
+  const Eigen::Vector2d v1(std::cos(turn_v), std::sin(turn_v)), v2(-v1[1], v1[0]);
+  const auto outer = [](const Eigen::Vector2d& u, const Eigen::Vector2d& v) {
+    return Eigen::Vector4d(u[0] * v[0], u[1] * v[0], u[0] * v[1], u[1] * v[1]);
+  };
+  const Eigen::Vector4d stretch1 = outer(u1, v1), stretch2 = outer(u2, v2), a = outer(u2, v1), b = outer(u1, v2);
+  const double mean = 0.5 * (f11 + f22), difference = 0.5 * (f11 - f22), radius = std::hypot(difference, f12);
+  const double turn = 0.5 * std::atan2(f12, difference);
+  const Eigen::Vector4d first = std::cos(turn) * stretch1 + std::sin(turn) * stretch2;
+  const Eigen::Vector4d second = std::cos(turn) * stretch2 - std::sin(turn) * stretch1;
+  const double least = kLeastCurvature * (mean + radius);
+  Eigen::Matrix4d h = Eigen::Matrix4d::Zero();
+  const auto add = [&](double value, const Eigen::Vector4d& vector) {
+    h += std::max(value, least) * vector * vector.transpose();
+  };
+  add(mean + radius, first);
+  add(mean - radius, second);
+  add(twist, std::sqrt(0.5) * (a - b));
+  add(flip, std::sqrt(0.5) * (a + b));
+  return h;
 }
 
 }  // namespace
@@ -137,23 +175,56 @@ double DistortionEnergy::evaluate(const double* x, double* gradient, double epsi
   return std::isfinite(energy) ? energy : std::numeric_limits<double>::max();
 }
 
-Eigen::SparseMatrix<Complex> DistortionEnergy::dirichlet_form() const {
-  std::vector<Eigen::Triplet<Complex>> entries;
-  entries.reserve(9 * faces_.size());
-  for (const Face& face : faces_) {
-    // Columns of J by corner: j1 = Σ a_k z_k, j2 = Σ b_k z_k.
-    const double a[3] = {-face.inverse[0], face.inverse[0], 0.0};
-    const double b[3] = {-face.inverse[1] - face.inverse[2], face.inverse[1], face.inverse[2]};
-    for (int k = 0; k < 3; ++k)
-      for (int l = 0; l < 3; ++l)
-        if (face.variable[k] >= 0 && face.variable[l] >= 0)
-          entries.emplace_back(face.variable[k], face.variable[l],
-                               face.weight * (a[k] * a[l] + b[k] * b[l]) * std::conj(face.turn[k]) * face.turn[l]);
+std::array<int, 3> DistortionEnergy::variables(int face) const {
+  const Face& f = faces_[face];
+  return {f.variable[0], f.variable[1], f.variable[2]};
+}
+
+DistortionEnergy::Columns DistortionEnergy::columns(const Face& face) {
+  const double i00 = face.inverse[0], i01 = face.inverse[1], i11 = face.inverse[2];
+  return {{-i00, i00, 0.0}, {-i01 - i11, i01, i11}};
+}
+
+Eigen::Matrix<double, 6, 6> DistortionEnergy::convex_hessian(int face_index, const double* x) const {
+  const Face& face = faces_[face_index];
+  const auto z = corners(face, x);
+  const Columns by = columns(face);
+  Complex j1 = 0.0, j2 = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    j1 += by.first[k] * z[k];
+    j2 += by.second[k] * z[k];
   }
-  const int n = static_cast<int>(vertices_.size());
-  Eigen::SparseMatrix<Complex> form(n, n);
-  form.setFromTriplets(entries.begin(), entries.end());
-  return form;
+  const Eigen::Matrix4d h = face.weight * convex_hessian_by_jacobian(j1, j2, area_weight_);
+  Eigen::Matrix<double, 4, 6> chain;
+  for (int k = 0; k < 3; ++k) {
+    Eigen::Matrix2d turn;
+    turn << face.turn[k].real(), -face.turn[k].imag(), face.turn[k].imag(), face.turn[k].real();
+    chain.block<2, 2>(0, 2 * k) = by.first[k] * turn;
+    chain.block<2, 2>(2, 2 * k) = by.second[k] * turn;
+  }
+  return chain.transpose() * h * chain;
+}
+
+double DistortionEnergy::longest_step(const double* x, const double* direction) const {
+  double longest = 1.0;
+  for (const Face& face : faces_) {
+    const auto z = corners(face, x);
+    Complex d[3];
+    for (int k = 0; k < 3; ++k) {
+      const int i = face.variable[k];
+      d[k] = i < 0 ? Complex(0.0) : face.turn[k] * Complex(direction[2 * i], direction[2 * i + 1]);
+    }
+    // Twice the area along the way is c + b t + a t².
+    const Complex e1 = z[1] - z[0], e2 = z[2] - z[0], d1 = d[1] - d[0], d2 = d[2] - d[0];
+    const double a = cross(d1, d2), b = cross(e1, d2) + cross(d1, e2), c = cross(e1, e2);
+    const double discriminant = b * b - 4.0 * a * c;
+    if (discriminant < 0.0) continue;
+    // The smallest positive root, without cancellation.
+    const double q = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
+    for (double root : {q / a, c / q})
+      if (root > 0.0 && root < longest) longest = root;
+  }
+  return longest;
 }
 
 }  // namespace gsp

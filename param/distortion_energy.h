@@ -1,8 +1,9 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
-#include <Eigen/SparseCore>
+#include <Eigen/Core>
 
 #include "param/atlas.h"
 
@@ -28,8 +29,16 @@ class DistortionEnergy {
   double least_determinant(const std::vector<double>& x) const;
   bool upright(const std::vector<double>& x) const;
 
-  /// Σ A |J|² / 2 as a Hermitian form of the variables, positive definite where something is held: to precondition with.
-  Eigen::SparseMatrix<Complex> dirichlet_form() const;
+  int face_count() const { return static_cast<int>(faces_.size()); }
+  int variable_count() const { return static_cast<int>(vertices_.size()); }
+  /// The vertices of a face as indices into `vertices`, -1 where held.
+  std::array<int, 3> variables(int face) const;
+  /// Second derivatives of one upright face's energy with ε = 0 by its corners' positions (x, y each), with the negative
+  /// eigenvalues of those by J, which are known in closed form (Smith et al. 2019), left out. Rows of held corners too.
+  Eigen::Matrix<double, 6, 6> convex_hessian(int face, const double* x) const;
+
+  /// The largest t <= 1 for which no face loses its area on the way from x to x + s·direction, s < t.
+  double longest_step(const double* x, const double* direction) const;
 
  private:
   struct Face {
@@ -40,6 +49,11 @@ class DistortionEnergy {
     double weight;
   };
 
+  /// Columns of J by corner: j1 = Σ first[k] z_k, j2 = Σ second[k] z_k.
+  struct Columns {
+    double first[3], second[3];
+  };
+  static Columns columns(const Face& face);
   std::array<Complex, 3> corners(const Face& face, const double* x) const;
 
   std::vector<int> vertices_;

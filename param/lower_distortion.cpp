@@ -3,10 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/SparseCholesky>
-#include <lbfgs.h>
-
-#include "mesh/error.h"
+#include "mesh/parallel.h"
 #include "param/distortion_energy.h"
 #include "param/folds.h"
 #include "param/global_system.h"
@@ -17,87 +14,119 @@ namespace gsp {
 namespace {
 
 constexpr double kAreaWeight = 1.0;
+constexpr double kLittle = 1e-4;        // of the energy, below which the gain of a step ends the search
+constexpr double kShare = 0.9;          // of the way to the first fold
+constexpr double kArmijo = 1e-4;
+constexpr double kShortestStep = 1e-6;
 
-/// The energy in the variables y with x = x0 + P⁻¹ L⁻* y, in which the Dirichlet form P⁻¹ L L* P is the identity.
-class Preconditioned {
+/// The convex Hessian of a whole energy: the pattern is found once, the values are filled in for each x.
+class Hessian {
  public:
-  Preconditioned(const DistortionEnergy& energy, std::vector<double> start, int steps, Progress& progress)
-      : energy_(energy), start_(std::move(start)), gradient_(start_.size()), steps_(steps), progress_(progress) {
-    factor_.compute(energy.dirichlet_form());
-    if (factor_.info() != Eigen::Success) throw Error(Cause::SolverFailed, "the Dirichlet form was not factorized");
+  explicit Hessian(const DistortionEnergy& energy) : energy_(energy) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for_each_entry([&](int, int, int, int row, int column) { entries.emplace_back(row, column, 0.0); });
+    const int n = 2 * energy.variable_count();
+    matrix_.resize(n, n);
+    matrix_.setFromTriplets(entries.begin(), entries.end());
+    place_.reserve(entries.size());
+    for_each_entry([&](int, int, int, int row, int column) {
+      const int* first = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column];
+      const int* last = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column + 1];
+      place_.push_back(static_cast<int>(std::lower_bound(first, last, row) - matrix_.innerIndexPtr()));
+    });
+    faces_.resize(energy.face_count());
   }
 
-  std::vector<double> at(const double* y) const {
-    ComplexVector step = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(y), start_.size() / 2);
-    factor_.matrixU().solveInPlace(step);
-    step = factor_.permutationPinv() * step;
-    std::vector<double> x = start_;
-    for (Eigen::Index i = 0; i < step.size(); ++i) {
-      x[2 * i] += step[i].real();
-      x[2 * i + 1] += step[i].imag();
+  /// The lower triangle at x.
+  const Eigen::SparseMatrix<double>& at(const double* x) {
+    parallel_for(faces_.size(), 1024, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f) faces_[f] = energy_.convex_hessian(static_cast<int>(f), x);
+    });
+    double* values = matrix_.valuePtr();
+    std::fill(values, values + matrix_.nonZeros(), 0.0);
+    std::size_t entry = 0;
+    for_each_entry([&](int f, int i, int j, int, int) { values[place_[entry++]] += faces_[f](i, j); });
+    return matrix_;
+  }
+
+ private:
+  /// visit(face, row in the face, column in the face, row, column) for the entries of the lower triangle.
+  template <class Visit>
+  void for_each_entry(Visit&& visit) const {
+    for (int f = 0; f < energy_.face_count(); ++f) {
+      const auto variables = energy_.variables(f);
+      for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < 6; ++j) {
+          if (variables[i / 2] < 0 || variables[j / 2] < 0) continue;
+          const int row = 2 * variables[i / 2] + i % 2, column = 2 * variables[j / 2] + j % 2;
+          if (row >= column) visit(f, i, j, row, column);
+        }
     }
-    return x;
   }
 
-  double evaluate(const double* y, double* gradient) {
-    const double energy = energy_.evaluate(at(y).data(), gradient_.data(), 0.0);
-    const Eigen::Index n = static_cast<Eigen::Index>(start_.size() / 2);
-    ComplexVector g = Eigen::Map<const ComplexVector>(reinterpret_cast<const Complex*>(gradient_.data()), n);
-    g = factor_.permutationP() * g;
-    factor_.matrixL().solveInPlace(g);
-    Eigen::Map<ComplexVector>(reinterpret_cast<Complex*>(gradient), n) = g;
-    return energy;
+  const DistortionEnergy& energy_;
+  Eigen::SparseMatrix<double> matrix_;
+  std::vector<int> place_;  ///< per entry, where its value is
+  std::vector<Eigen::Matrix<double, 6, 6>> faces_;
+};
+
+class Descent {
+ public:
+  Descent(const DistortionEnergy& energy, std::vector<double>& x) : energy_(energy), x_(x), hessian_(energy), gradient_(x.size()) {
+    value_ = energy_.evaluate(x_.data(), gradient_.data(), 0.0);
   }
 
-  void step_made(int step) { progress_.report("lower distortion", std::min(1.0, double(step) / steps_)); }
+  /// One Newton step. Returns the share of the energy it gained, 0 where it found nothing.
+  double step() {
+    Eigen::VectorXd direction;
+    solver_.factorize(hessian_.at(x_.data()));
+    const Eigen::Map<Eigen::VectorXd> gradient(gradient_.data(), gradient_.size());
+    direction = solver_.solve(-gradient);
+    const double slope = gradient.dot(direction);
+    if (!(slope < 0.0)) return 0.0;
+    const double longest = energy_.longest_step(x_.data(), direction.data());
+    std::vector<double> trial(x_.size()), trial_gradient(x_.size());
+    for (double t = longest < 1.0 ? kShare * longest : 1.0; t > kShortestStep; t *= 0.5) {
+      for (std::size_t i = 0; i < x_.size(); ++i) trial[i] = x_[i] + t * direction[i];
+      const double value = energy_.evaluate(trial.data(), trial_gradient.data(), 0.0);
+      if (!(value <= value_ + kArmijo * t * slope) || !energy_.upright(trial)) continue;
+      const double gain = (value_ - value) / value_;
+      value_ = value;
+      x_.swap(trial);
+      gradient_.swap(trial_gradient);
+      return gain;
+    }
+    return 0.0;
+  }
 
  private:
   const DistortionEnergy& energy_;
-  const std::vector<double> start_;
+  std::vector<double>& x_;
+  Hessian hessian_;
+  CholeskySolver solver_;
   std::vector<double> gradient_;
-  int steps_;
-  Progress& progress_;
-  Eigen::SimplicialLLT<Eigen::SparseMatrix<Complex>> factor_;
+  double value_;
 };
 
 }  // namespace
 
 bool lower_distortion(Atlas& atlas, int steps, Progress& progress) {
   seat_boundary(atlas);
-  const std::vector<char> interior = interior_vertices(atlas);
   std::vector<int> vertices, faces(atlas.surface->mesh.faces.size());
-  for (std::size_t v = 0; v < interior.size(); ++v)
-    if (interior[v]) vertices.push_back(static_cast<int>(v));
+  for (int v = 0; v < static_cast<int>(atlas.patch.size()); ++v)
+    if (atlas.is_free(v)) vertices.push_back(v);
   if (vertices.empty()) return false;
   std::iota(faces.begin(), faces.end(), 0);
   const DistortionEnergy energy(atlas, vertices, faces, kAreaWeight);
-  Preconditioned problem(energy, energy.positions(atlas), steps, progress);
-
-  lbfgs_parameter_t parameters;
-  lbfgs_parameter_init(&parameters);
-  parameters.max_iterations = steps;
-  parameters.epsilon = 1e-6;
-  parameters.past = 5;
-  parameters.delta = 1e-5;
-  parameters.linesearch = LBFGS_LINESEARCH_BACKTRACKING_ARMIJO;
-  parameters.max_linesearch = 60;
-  std::vector<double> y(2 * vertices.size(), 0.0);
-  double least = 0.0;
-  lbfgs(
-      static_cast<int>(y.size()), y.data(), &least,
-      [](void* self, const double* at, double* gradient, const int, const double) {
-        return static_cast<Preconditioned*>(self)->evaluate(at, gradient);
-      },
-      [](void* self, const double*, const double*, const double, const double, const double, const double, int, int step,
-         int) {
-        static_cast<Preconditioned*>(self)->step_made(step);
-        return 0;
-      },
-      &problem, &parameters);
+  std::vector<double> x = energy.positions(atlas);
   const std::vector<Complex> before = atlas.position;
-  const std::vector<double> x = problem.at(y.data());
+  Descent descent(energy, x);
+  for (int i = 0; i < steps; ++i) {
+    progress.report("lower distortion", double(i) / steps);
+    if (descent.step() < kLittle) break;
+  }
   energy.write_back(x, atlas);
-  if (!energy.upright(x) || !find_folds(atlas).none()) {
+  if (!find_folds(atlas).none()) {
     atlas.position = before;
     return false;
   }

@@ -5,11 +5,11 @@
 
 namespace gsp {
 
-/// Lowers the `DistortionEnergy` of a whole map free of folds, over all vertices that are no patch corners and not on a
-/// boundary, by at most so many steps of L-BFGS, preconditioned with the Cholesky factor of the Dirichlet form. No step
-/// leaves the maps without folds. The energy knows nothing of patches, so its minimiser is as smooth across patch edges as
-/// within them. Vertices are then given the charts they lie in. One sparse factorization, and per step two triangular
-/// solves and one pass over the faces. Returns false, the map unchanged, where nothing was gained.
+/// Lowers the `DistortionEnergy` of a whole map free of folds, over all its free vertices, by at most so many Newton steps
+/// with a convex Hessian; it ends before when a step gains little. No step leaves the maps without folds. The energy knows
+/// nothing of patches, so its minimiser is as smooth across patch edges as within them. Vertices are then given the charts
+/// they lie in. One sparse Cholesky factorization a step. Returns false, the map unchanged, where nothing was gained.
+/// Throws Error(SolverFailed, Cancelled).
 bool lower_distortion(Atlas& atlas, int steps, Progress& progress);
 
 }  // namespace gsp

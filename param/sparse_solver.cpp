@@ -5,8 +5,10 @@
 #ifdef GSP_SUITESPARSE
 #include <dlfcn.h>
 
+#include <Eigen/CholmodSupport>
 #include <Eigen/UmfPackSupport>
 #else
+#include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
 #endif
 
@@ -19,6 +21,7 @@ namespace {
 #ifdef GSP_SUITESPARSE
 template <class Matrix>
 using Solver = Eigen::UmfPackLU<Matrix>;
+using Cholesky = Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
 
 /// A threaded BLAS sums in an order that depends on the number of threads; results must not.
 void use_one_blas_thread() {
@@ -30,6 +33,7 @@ void use_one_blas_thread() {
 #else
 template <class Matrix>
 using Solver = Eigen::SparseLU<Matrix, Eigen::COLAMDOrdering<int>>;
+using Cholesky = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
 
 void use_one_blas_thread() {}
 #endif
@@ -62,5 +66,25 @@ bool solve_sparse(const Eigen::SparseMatrix<double>& a, const Eigen::MatrixX2d& 
   }
   return x.allFinite() && (a * x - b).norm() <= 1e-8 * (b.norm() + 1e-300);
 }
+
+struct CholeskySolver::Factor {
+  Cholesky llt;
+  bool analysed = false;
+};
+
+CholeskySolver::CholeskySolver() : factor_(std::make_unique<Factor>()) {}
+CholeskySolver::~CholeskySolver() = default;
+
+void CholeskySolver::factorize(const Eigen::SparseMatrix<double>& lower) {
+  use_one_blas_thread();
+  if (!factor_->analysed) factor_->llt.analyzePattern(lower);
+  factor_->analysed = true;
+  factor_->llt.factorize(lower);
+  if (factor_->llt.info() != Eigen::Success)
+    throw Error(Cause::SolverFailed,
+                "the symmetric system of " + std::to_string(lower.rows()) + " unknowns was not factorized");
+}
+
+Eigen::VectorXd CholeskySolver::solve(const Eigen::VectorXd& b) const { return factor_->llt.solve(b); }
 
 }  // namespace gsp

@@ -19,4 +19,19 @@ ComplexVector solve_sparse(const ComplexMatrix& a, const ComplexVector& b);
 /// The same for a real system with two right-hand sides; false where it could not be solved.
 bool solve_sparse(const Eigen::SparseMatrix<double>& a, const Eigen::MatrixX2d& b, Eigen::MatrixX2d& x);
 
+/// Solves symmetric positive definite systems of one pattern, one after the other: the symbolic analysis is made once.
+/// CHOLMOD, or Eigen's LLT where GSP_SUITESPARSE is off.
+class CholeskySolver {
+ public:
+  CholeskySolver();
+  ~CholeskySolver();
+  /// `lower`: its lower triangle. Throws Error(SolverFailed) where it is not positive definite.
+  void factorize(const Eigen::SparseMatrix<double>& lower);
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+
+ private:
+  struct Factor;
+  std::unique_ptr<Factor> factor_;
+};
+
 }  // namespace gsp

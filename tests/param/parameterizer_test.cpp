@@ -195,6 +195,46 @@ TEST_CASE("the distortion energy is bounded below by that of isometries, and its
   }
 }
 
+TEST_CASE("beside its least the distortion energy curves as its convex Hessian says, and no further step folds a face") {
+  Mesh disc = shapes::sector_disc(6, 3);
+  const SimplifyResult made = simplification(disc, 7);
+  Atlas atlas = made.atlas;
+  // The disc of six equilateral sectors on its six charts, which is an isometry up to scale.
+  for (int i = 0; i < 3; ++i) solve(atlas, mean_value_weights(*atlas.surface));
+  std::vector<int> vertices, faces;
+  for (int v = 0; v < disc.vertex_count(); ++v)
+    if (atlas.is_free(v)) vertices.push_back(v);
+  for (int f = 0; f < disc.face_count(); ++f) faces.push_back(f);
+  const DistortionEnergy energy(atlas, vertices, faces, 0.7);
+  const std::vector<double> x = energy.positions(atlas);
+  std::vector<double> direction(x.size()), gradient(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) direction[i] = std::sin(1.7 * double(i));
+  double curvature = 0.0;
+  for (int f = 0; f < energy.face_count(); ++f) {
+    Eigen::Matrix<double, 6, 1> d = Eigen::Matrix<double, 6, 1>::Zero();
+    const auto variables = energy.variables(f);
+    for (int k = 0; k < 3; ++k)
+      if (variables[k] >= 0) d.segment<2>(2 * k) << direction[2 * variables[k]], direction[2 * variables[k] + 1];
+    curvature += d.dot(energy.convex_hessian(f, x.data()) * d);
+  }
+  const auto at = [&](double t) {
+    std::vector<double> moved = x;
+    for (std::size_t i = 0; i < x.size(); ++i) moved[i] += t * direction[i];
+    return energy.evaluate(moved.data(), gradient.data(), 0.0);
+  };
+  constexpr double kStep = 1e-4;
+  CHECK(curvature == Approx((at(kStep) - 2.0 * at(0.0) + at(-kStep)) / (kStep * kStep)).epsilon(1e-2));
+  std::vector<double> far = direction;
+  for (double& d : far) d *= 10.0;
+  const double longest = energy.longest_step(x.data(), far.data());
+  REQUIRE(longest < 1.0);
+  std::vector<double> near = x;
+  for (std::size_t i = 0; i < x.size(); ++i) near[i] = x[i] + 0.999 * longest * far[i];
+  CHECK(energy.upright(near));
+  for (std::size_t i = 0; i < x.size(); ++i) near[i] = x[i] + 1.001 * longest * far[i];
+  CHECK_FALSE(energy.upright(near));
+}
+
 TEST_CASE("splitting long edges leaves none, keeps the surface and puts new vertices last") {
   const Mesh before = shapes::grid(3, 2);
   Mesh mesh = before;
