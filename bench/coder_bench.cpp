@@ -16,7 +16,7 @@ void vertices_per_second(benchmark::State& state, std::size_t vertices) {
 }
 
 WaveletTransform transform_of(const SemiregularMesh& mesh) {
-  return WaveletTransform(subdivision_levels(mesh.base_vertices, mesh.base_faces, mesh.level));
+  return WaveletTransform(subdivision_levels(mesh.base_vertices, mesh.base_faces, mesh.level - 1));
 }
 
 void BM_WaveletAnalysisFinestLevel(benchmark::State& state) {

@@ -9,17 +9,47 @@
 
 namespace gsp {
 
+/// Logistic functions in integers, the same on every machine: `stretch` is ln(p/(1-p)) in 1/256, `squash` its inverse.
+class Logistic {
+ public:
+  static int stretch(Probability set) { return tables.stretch[set >> 4]; }
+  static Probability squash(int logit) {
+    return tables.squash[std::clamp(logit, -kLargestLogit, kLargestLogit) + kLargestLogit];
+  }
+
+  static constexpr int kLargestLogit = 11 * 256;
+  struct Tables {
+    std::array<std::uint16_t, 2 * kLargestLogit + 1> squash;
+    std::array<std::int16_t, 4096> stretch;
+  };
+
+ private:
+  static const Tables tables;
+};
+
 /// Adaptive probability of one context: the mean of the bits seen, forgetting slowly once it has seen enough.
 struct AdaptiveBit {
   std::uint16_t set = 32768;  ///< probability of a set bit in 1/65536
   std::uint16_t seen = 0;
 
-  void update(bool bit, int limit);
-};
+  static constexpr int kMostMemory = 1023;
 
-/// Logistic functions in integers, the same on every machine: `stretch` is ln(p/(1-p)) in 1/256, `squash` its inverse.
-int stretch(Probability set);
-Probability squash(int logit);
+  /// `memory`: bits after which the context starts to forget, at most kMostMemory.
+  void update(bool bit, int memory) {
+    const int target = bit ? 65535 : 0;
+    const int step = static_cast<int>((static_cast<std::int64_t>(target - set) * kShares[seen]) >> 16);
+    set = static_cast<std::uint16_t>(std::clamp(set + step, 32, 65535 - 32));
+    seen += seen < memory;
+  }
+
+ private:
+  /// 65536 / (n + 1.5): the step that keeps a running mean.
+  static constexpr auto kShares = [] {
+    std::array<std::int32_t, kMostMemory + 1> shares{};
+    for (int n = 0; n <= kMostMemory; ++n) shares[n] = 2 * 65536 / (2 * n + 3);
+    return shares;
+  }();
+};
 
 /// One kind of decision, predicted by N contexts at once, whose opinions are weighed in the logistic domain by weights
 /// that are learned on line (Mahoney, "Adaptive weighing of context models for lossless data compression", 2005).
@@ -35,26 +65,29 @@ class MixedModel {
   /// Codes `actual` through `side`, or receives it from there, and learns from it.
   template <class Side>
   bool decide(Side& side, bool actual, const std::array<int, N>& context, int mixer) {
+    std::array<AdaptiveBit*, N> bits;
     std::array<int, N> logits;
     std::int64_t sum = 0;
     auto& weights = weights_[mixer];
     for (int i = 0; i < N; ++i) {
-      logits[i] = stretch(contexts_[i][context[i]].set);
+      bits[i] = &contexts_[i][context[i]];
+      logits[i] = Logistic::stretch(bits[i]->set);
       sum += static_cast<std::int64_t>(weights[i]) * logits[i];
     }
-    const Probability predicted = std::clamp<Probability>(squash(static_cast<int>(sum >> 16)), 16, 65536 - 16);
+    const Probability predicted =
+        std::clamp<Probability>(Logistic::squash(static_cast<int>(sum >> 16)), 16, 65536 - 16);
     const bool bit = side.decide(actual, predicted);
-    const std::int64_t error = (bit ? 65535 : 0) - static_cast<std::int64_t>(predicted);
+    const int error = (bit ? 65535 : 0) - static_cast<int>(predicted);
     for (int i = 0; i < N; ++i) {
-      weights[i] += static_cast<std::int32_t>((logits[i] * error * kLearningRate) >> 16);
-      contexts_[i][context[i]].update(bit, kMemory);
+      weights[i] += (logits[i] * error) >> (16 - kLearningShift);
+      bits[i]->update(bit, kMemory);
     }
     return bit;
   }
 
  private:
-  static constexpr int kMemory = 400;  // bits after which a context starts to forget
-  static constexpr int kLearningRate = 2;
+  static constexpr int kMemory = 400;
+  static constexpr int kLearningShift = 1;
 
   std::array<std::vector<AdaptiveBit>, N> contexts_;
   std::vector<std::array<std::int32_t, N>> weights_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "coder/bit_model.h"
 #include "coder/range_coder.h"
@@ -73,17 +74,21 @@ class BitplaneCoder {
   BitplaneCoder(const EdgeForest& forest, const BitplaneLayout& layout, const BitplaneCoefficients* actual, Side& side)
       : forest_(forest), layout_(layout), actual_(actual), side_(side) {
     const std::size_t vertices = layout.base_neighbours.size(), nodes = forest.nodes();
+    const std::uint8_t planes = static_cast<std::uint8_t>(layout.detail_planes);
     known_.base.assign(vertices, {0, 0, 0});
     known_.base_low_plane.assign(vertices, {});
-    for (auto& planes : known_.base_low_plane) planes.fill(layout.base_planes);
+    for (auto& low : known_.base_low_plane) low.fill(layout.base_planes);
+    near_.assign(nodes, 0);
+    open_.assign(nodes, 0);
     for (int c = 0; c < 3; ++c) {
       known_.details[c].magnitude.assign(nodes, 0);
       known_.details[c].negative.assign(nodes, 0);
-      known_.details[c].low_plane.assign(nodes, layout.detail_planes);
-      near_[c].assign(nodes, 0);
-      descendants_[c].assign(nodes, 0);
+      known_.details[c].low_plane.assign(nodes, planes);
+      ring_[c].assign(nodes, 0);
       children_[c].assign(nodes, 0);
-      descendants_low_plane_[c].assign(nodes, layout.detail_planes);
+      tree_low_plane_[c].assign(nodes, planes);
+      bit_due_[c].assign(nodes + kBlock, kNever);
+      tree_due_[c].assign(nodes + kBlock, kNever);
     }
     if (actual) find_largest_descendants();
   }
@@ -91,27 +96,36 @@ class BitplaneCoder {
   void run() {
     const int top = kPassesPerPlane * std::max(layout_.base_planes, layout_.detail_planes) - 1 + kMaxUrgency;
     for (int pass = top; pass >= kMaxUrgency; --pass) {
-      if (pass % kPassesPerPlane == kPassesPerPlane - 1) urgency_ = layout_.urgency(known_);
+      if (pass == top || (pass >= kLastUrgency && pass % (kPlanesPerUrgency * kPassesPerPlane) == 0)) renew_urgency();
       const int base_plane = (pass + kBaseDelay + kPassesPerPlane - 1) / kPassesPerPlane;
       if ((pass + kBaseDelay) % kPassesPerPlane == 0 && base_plane < layout_.base_planes) base_pass(base_plane);
       for (int level = 0; level < forest_.levels(); ++level)
-        for (int c = 0; c < 3; ++c) detail_pass(pass, level, c);
-      if (forest_.levels() < layout_.levels && reaches_below()) throw StreamEnd{};
+        for (int c = 0; c < 3; ++c) {
+          for_each_due(bit_due_[c], level, pass, [&](int n) { code_bits(pass, level, c, n); });
+          if (level + 1 < layout_.levels)
+            for_each_due(tree_due_[c], level, pass, [&](int n) { code_trees(pass, level, c, n); });
+        }
     }
   }
 
   BitplaneCoefficients take() { return std::move(known_); }
 
  private:
+  /// The pass in which something is to be coded; passes end above it.
+  using Due = std::uint8_t;
+  static constexpr Due kNever = 0;
+  static constexpr int kBlock = 32;  ///< nodes that are looked through at once
+  static_assert(kMaxUrgency > kNever && kPassesPerPlane * 31 + kMaxUrgency < 256);
+
+  static int bit_of(int flags, int c) { return flags >> c & 1; }
+
   void find_largest_descendants() {
-    for (int c = 0; c < 3; ++c) {
-      largest_[c].assign(forest_.nodes(), 0);
-      for (int n = forest_.nodes() - 1; n >= 0; --n) {
-        const int parent = forest_.parent[n];
-        if (parent < 0) continue;
-        const std::uint32_t below = std::max(largest_[c][n], actual_->details[c].magnitude[n]);
-        largest_[c][parent] = std::max(largest_[c][parent], below);
-      }
+    largest_.assign(forest_.nodes(), {0, 0, 0});
+    for (int n = forest_.nodes() - 1; n >= 0; --n) {
+      const int parent = forest_.parent[n];
+      if (parent < 0) continue;
+      for (int c = 0; c < 3; ++c)
+        largest_[parent][c] = std::max({largest_[parent][c], largest_[n][c], actual_->details[c].magnitude[n]});
     }
   }
 
@@ -145,143 +159,188 @@ class BitplaneCoder {
     }
   }
 
+  /// Visits a level's nodes whose time has come, in order. Most have nothing to say in a pass, so they are looked
+  /// through in blocks; what falls due inside a block that has been begun waits for the next pass.
+  template <class Visit>
+  void for_each_due(const std::vector<Due>& due, int level, int pass, Visit visit) {
+    static constexpr auto kFlags = [] {
+      std::array<std::uint32_t, kBlock> flags{};
+      for (int i = 0; i < kBlock; ++i) flags[i] = 1u << i;
+      return flags;
+    }();
+    const int end = forest_.level_begin[level + 1];
+    for (int begin = forest_.level_begin[level]; begin < end; begin += kBlock) {
+      const Due* const block = due.data() + begin;
+      Due latest = kNever;
+      for (int i = 0; i < kBlock; ++i) latest = std::max(latest, block[i]);
+      if (latest < pass) continue;
+      std::uint32_t now = 0;
+      for (int i = 0; i < kBlock; ++i) now |= block[i] >= pass ? kFlags[i] : 0;
+      if (end - begin < kBlock) now &= (1u << (end - begin)) - 1;
+      for (; now != 0; now &= now - 1) visit(begin + std::countr_zero(now));
+    }
+  }
+
+  void renew_urgency() {
+    const std::array<std::vector<std::int8_t>, 3> old = std::exchange(urgency_, layout_.urgency(known_));
+    for (int c = 0; c < 3; ++c)
+      for (int n = 0; n < forest_.nodes(); ++n)
+        if ((old[c].empty() || old[c][n] != urgency_[c][n]) && active(c, n)) schedule(c, n);
+  }
+
+  /// Whether bits of a node are coded: all of the tree above it is open.
+  bool active(int c, int n) const {
+    const int parent = forest_.parent[n];
+    return parent < 0 || bit_of(open_[parent], c);
+  }
+
+  Due due(int c, int n, int planes, int delay) const {
+    if (planes == 0) return kNever;
+    return static_cast<Due>(std::max<int>(kNever, kPassesPerPlane * (planes - 1) + urgency_[c][n] - delay));
+  }
+
+  void schedule_bit(int c, int n) { bit_due_[c][n] = due(c, n, known_.details[c].low_plane[n], delay(c, n)); }
+
+  void schedule_tree(int c, int n) {
+    tree_due_[c][n] = bit_of(open_[n], c) ? kNever : due(c, n, tree_low_plane_[c][n], kTreeDelay);
+  }
+
+  void schedule(int c, int n) {
+    schedule_bit(c, n);
+    schedule_tree(c, n);
+  }
+
   /// Passes by which a node's bits wait, so that all bits of a pass save about as much error per bit spent: halving an
   /// interval costs a whole bit, and where nothing is significant yet, news are rare.
   int delay(int c, int n) const {
     if (known_.details[c].magnitude[n] != 0) return kRefinementDelay;
     const int parent = forest_.parent[n];
-    const bool quiet = !near_[c][n] && (parent < 0 || known_.details[c].magnitude[parent] == 0);
+    const bool quiet = !bit_of(near_[n], c) && (parent < 0 || known_.details[c].magnitude[parent] == 0);
     return quiet ? kQuietDelay : 0;
   }
 
-  void detail_pass(int pass, int level, int c) {
+  void code_bits(int pass, int level, int c, int n) {
     auto& known = known_.details[c];
-    for (int n = forest_.level_begin[level]; n < forest_.level_begin[level + 1]; ++n) {
-      const int last = std::max(0, pass - urgency_[c][n] + delay(c, n) + kPassesPerPlane - 1) / kPassesPerPlane;
-      while (known.low_plane[n] > last) {
-        const int plane = known.low_plane[n] - 1;
-        const int parent = forest_.parent[n];
-        if (parent < 0 || has_descendants(plane, level - 1, c, parent)) {
-          if (known.magnitude[n] != 0)
-            refine(plane, level, c, n);
-          else
-            find_significant(plane, level, c, n);
-        }
-        known.low_plane[n] = plane;
+    while (bit_due_[c][n] >= pass) {
+      const int plane = known.low_plane[n] - 1;
+      known.low_plane[n] = static_cast<std::uint8_t>(plane);
+      if (known.magnitude[n] != 0) {
+        refine(plane, c, n);
+      } else if (find_significant(plane, level, c, n)) {
+        schedule_bit(c, n);
+        tell_of_significance(level, c, n);
+        continue;
       }
+      Due& due = bit_due_[c][n];
+      due = plane == 0 ? kNever : static_cast<Due>(std::max<int>(kNever, due - kPassesPerPlane));
     }
   }
 
-  /// Whether descendants of `n` may be significant at `plane`. Beside anything significant they are coded one by one,
-  /// for their contexts say more than a tree could; elsewhere the stream says once for the whole tree that there are
-  /// none.
-  bool has_descendants(int plane, int level, int c, int n) {
-    std::uint8_t& open = descendants_[c][n];
-    if (!open) open = known_.details[c].magnitude[n] != 0 || near_[c][n];
-    std::uint8_t& low_plane = descendants_low_plane_[c][n];
-    while (!open && low_plane > plane) {
-      const int parent = forest_.parent[n];
-      if (parent < 0 || has_descendants(low_plane - 1, level - 1, c, parent))
-        open = find_descendants(low_plane - 1, level, c, n);
-      --low_plane;
+  void code_trees(int pass, int level, int c, int n) {
+    while (tree_due_[c][n] >= pass) {
+      const int plane = tree_low_plane_[c][n] - 1;
+      if (find_descendants(plane, level, c, n)) return open(level, c, n);
+      tree_low_plane_[c][n] = static_cast<std::uint8_t>(plane);
+      schedule_tree(c, n);
     }
-    return open;
   }
 
-  /// Whether the stream may say something of the first level that the forest does not have: it does where there is
-  /// something at the last, or where trees of the level above that one are open. (Nodes below the forest have their
-  /// parents' urgency, so they never ask for more planes of a closed tree than their parents did.)
-  bool reaches_below() const {
-    const int last = forest_.levels() - 1;
-    if (last < 1) return true;
-    for (int c = 0; c < 3; ++c) {
-      for (int n = forest_.level_begin[last]; n < forest_.level_begin[last + 1]; ++n)
-        if (known_.details[c].magnitude[n] != 0) return true;
-      for (int n = forest_.level_begin[last - 1]; n < forest_.level_begin[last]; ++n)
-        if (descendants_[c][n]) return true;
+  /// Beside anything significant, descendants are coded one by one, for their contexts say more than a tree could;
+  /// elsewhere the stream says once for the whole tree that there are none.
+  void tell_of_significance(int level, int c, int n) {
+    open(level, c, n);
+    for (int w : forest_.neighbours[n]) {
+      if (w < 0) continue;
+      near_[w] |= 1 << c;
+      if (!active(c, w)) continue;
+      schedule_bit(c, w);
+      open(level, c, w);
     }
-    return false;
+    for (int child : forest_.children[n])
+      if (child >= 0) schedule_bit(c, child);
+  }
+
+  void open(int level, int c, int n) {
+    if (level + 1 >= layout_.levels || bit_of(open_[n], c)) return;
+    // What follows would speak of a level below the forest.
+    if (level + 1 == forest_.levels()) throw StreamEnd{};
+    open_[n] |= 1 << c;
+    tree_due_[c][n] = kNever;
+    const std::uint8_t empty_from = tree_low_plane_[c][n];
+    for (int child : forest_.children[n]) {
+      if (child < 0) continue;
+      known_.details[c].low_plane[child] = tree_low_plane_[c][child] = empty_from;
+      if (bit_of(near_[child], c)) open(level + 1, c, child);
+      schedule(c, child);
+    }
   }
 
   static std::uint64_t quarters(std::uint64_t magnitude, int plane) { return (magnitude << 2) >> plane; }
-
-  /// Sum of the magnitudes of the edges beside `n`, in quarters of the threshold.
-  std::uint64_t ring(int plane, int c, int n) const {
-    std::uint64_t sum = 0;
-    for (int w : forest_.neighbours[n])
-      if (w >= 0) sum += known_.details[c].magnitude[w];
-    return quarters(sum, plane);
-  }
 
   std::uint64_t parent_magnitude(int plane, int c, int n) const {
     const int parent = forest_.parent[n];
     return parent < 0 ? 0 : quarters(known_.details[c].magnitude[parent], plane);
   }
 
-  void grow(int plane, int c, int n) {
-    known_.details[c].magnitude[n] |= 1u << plane;
-    if (forest_.parent[n] >= 0) children_[c][forest_.parent[n]] += std::uint64_t{1} << plane;
+  void set_bit(int plane, int c, int n) {
+    const std::uint32_t bit = 1u << plane;
+    known_.details[c].magnitude[n] |= bit;
+    for (int w : forest_.neighbours[n])
+      if (w >= 0) ring_[c][w] += bit;
+    if (forest_.parent[n] >= 0) children_[c][forest_.parent[n]] += bit;
   }
 
-  void find_significant(int plane, int level, int c, int n) {
-    const int tangential = c != 0;
-    const std::uint64_t around = ring(plane, c, n), above = parent_magnitude(plane, c, n);
-    std::uint64_t wide = 2 * around + above;
+  bool find_significant(int plane, int level, int c, int n) {
+    const int tangential = c != 0, o = c == 0 ? 1 : 0, q = 3 - c - o;
+    const std::uint64_t above = parent_magnitude(plane, c, n);
+    std::uint64_t rings = 0;
     for (int w : forest_.neighbours[n])
-      if (w >= 0) wide += ring(plane, c, w);
-    std::uint64_t others_here = 0, others_around = 0;
-    for (int o = 0; o < 3; ++o) {
-      if (o == c) continue;
-      others_here += quarters(known_.details[o].magnitude[n], plane);
-      others_around += ring(plane, o, n);
-    }
+      if (w >= 0) rings += ring_[c][w];
+    const std::uint64_t around = quarters(ring_[c][n], plane);
+    const std::uint64_t wide = 2 * around + above + quarters(rings, plane);
+    const std::uint64_t others_here =
+        quarters(std::uint64_t{known_.details[o].magnitude[n]} + known_.details[q].magnitude[n], plane);
+    const std::uint64_t others_around = quarters(std::uint64_t{ring_[o][n]} + ring_[q][n], plane);
     const std::uint64_t children = quarters(children_[c][n], plane);
-    const int a = octave(around, 8), p = octave(above, 7), w = octave(wide, 10), here = octave(others_here, 6);
-    const int below = octave(children, 8), cross = octave(2 * others_here + others_around, 10);
+    const int w = octave(wide, 10), cross = octave(2 * others_here + others_around, 10);
     const int fine = half_octave(2 * wide + 2 * around + 4 * children + others_here + others_around / 2, 24);
-    const int open = descendants_[c][n];
     side_.count_as(&BitplaneParts::Component::significance, c);
     const bool bit = significance_model_.decide(
         side_, actual_ && (actual_->details[c].magnitude[n] >> plane & 1),
-        {tuple_index(tangential, 2, open, 2, p > 0, 2, w, 10, a, 8), tuple_index(c, 3, plane, 32, level, kLevels),
-         tuple_index(c, 3, open, 2, here, 6, a, 8), tuple_index(tangential, 2, fine, 24, level, kLevels),
-         tuple_index(tangential, 2, p, 7, a, 8, below, 8), tuple_index(c, 3, w, 10, cross, 10)},
+        {tuple_index(c, 3, plane, 32, level, kLevels), tuple_index(tangential, 2, fine, 24, level, kLevels),
+         tuple_index(c, 3, w, 10, cross, 10)},
         tangential);
-    if (!bit) return;
-    for (int beside : forest_.neighbours[n])
-      if (beside >= 0) near_[c][beside] = 1;
+    if (!bit) return false;
     side_.count_as(&BitplaneParts::Component::signs, c);
     known_.details[c].negative[n] = side_.decide(actual_ && actual_->details[c].negative[n], 32768);
-    grow(plane, c, n);
+    set_bit(plane, c, n);
+    return true;
   }
 
-  void refine(int plane, int level, int c, int n) {
+  void refine(int plane, int c, int n) {
     const int size = octave(known_.details[c].magnitude[n] >> (plane + 1), 5);
-    const int a = octave(ring(plane, c, n), 8), p = octave(parent_magnitude(plane, c, n), 8);
+    const int a = octave(quarters(ring_[c][n], plane), 8), p = octave(parent_magnitude(plane, c, n), 8);
     side_.count_as(&BitplaneParts::Component::refinement, c);
     const bool bit = refinement_model_.decide(side_, actual_ && (actual_->details[c].magnitude[n] >> plane & 1),
-                                              {tuple_index(size, 5, a, 8), tuple_index(size, 5, c, 3),
-                                               tuple_index(size, 5, level, kLevels), tuple_index(size, 5, p, 8)},
-                                              0);
-    if (bit) grow(plane, c, n);
+                                              {tuple_index(size, 5, a, 8), tuple_index(size, 5, p, 8)}, 0);
+    if (bit) set_bit(plane, c, n);
   }
 
   bool find_descendants(int plane, int level, int c, int n) {
-    const int tangential = c != 0, p = octave(parent_magnitude(plane, c, n), 6);
-    int open_neighbours = 0, open_components = 0;
+    const int tangential = c != 0, o = c == 0 ? 1 : 0, q = 3 - c - o;
+    const int p = octave(parent_magnitude(plane, c, n), 6);
+    int open_neighbours = 0;
     for (int w : forest_.neighbours[n])
-      if (w >= 0) open_neighbours += descendants_[c][w];
-    std::uint64_t others = 0;
-    for (int o = 0; o < 3; ++o) {
-      if (o == c) continue;
-      open_components += descendants_[o][n];
-      others += quarters(known_.details[o].magnitude[n], plane) + ring(plane, o, n);
-    }
+      if (w >= 0) open_neighbours += bit_of(open_[w], c);
+    const int open_components = bit_of(open_[n], o) + bit_of(open_[n], q);
+    const std::uint64_t others = quarters(
+        std::uint64_t{known_.details[o].magnitude[n]} + known_.details[q].magnitude[n] + ring_[o][n] + ring_[q][n],
+        plane);
     side_.count_as(&BitplaneParts::Component::trees, c);
     return descendants_model_.decide(
-        side_, actual_ && largest_[c][n] >> plane != 0,
-        {tuple_index(c, 3, open_neighbours, 5, open_components, 3), tuple_index(c, 3, plane, 32, level, kLevels),
-         tuple_index(tangential, 2, p, 6, level, kLevels), tuple_index(tangential, 2, octave(others, 8), 8)},
+        side_, actual_ && largest_[n][c] >> plane != 0,
+        {tuple_index(tangential, 2, open_neighbours, 5, open_components, 3, octave(others, 4), 4),
+         tuple_index(tangential, 2, p, 6, level, kLevels)},
         tangential);
   }
 
@@ -290,21 +349,24 @@ class BitplaneCoder {
   const BitplaneCoefficients* actual_;
   Side& side_;
   BitplaneCoefficients known_;
-  std::array<std::vector<std::uint8_t>, 3> near_;         ///< 1 once an edge beside it is significant
-  std::array<std::vector<std::uint8_t>, 3> descendants_;  ///< 1 once descendants are coded one by one
-  std::array<std::vector<std::uint8_t>, 3>
-      descendants_low_plane_;                           ///< above and at it, a closed tree is known to be empty
-  std::array<std::vector<std::uint64_t>, 3> children_;  ///< sum of the children's known magnitudes
-  std::array<std::vector<std::uint32_t>, 3> largest_;   ///< encoder only: largest magnitude of all descendants
+  // What contexts are made of: kept up to date when a bit is set, since it is asked for many times as often.
+  std::array<std::vector<std::uint32_t>, 3> ring_;           ///< sum of the magnitudes of the edges beside a node
+  std::array<std::vector<std::uint32_t>, 3> children_;       ///< sum of the children's magnitudes
+  std::vector<std::uint8_t> near_;                           ///< bit c: an edge beside it is significant
+  std::vector<std::uint8_t> open_;                           ///< bit c: its descendants are coded one by one
+  std::array<std::vector<std::uint8_t>, 3> tree_low_plane_;  ///< at and above it, a closed tree is known to be empty
+  std::array<std::vector<Due>, 3> bit_due_, tree_due_;
+  std::vector<std::array<std::uint32_t, 3>> largest_;  ///< encoder only: largest magnitudes of all descendants
   std::array<std::vector<std::int8_t>, 3> urgency_;
 
-  static constexpr int kBaseDelay = 2, kRefinementDelay = 3, kQuietDelay = 2;
+  static constexpr int kBaseDelay = 2, kRefinementDelay = 3, kQuietDelay = 2, kTreeDelay = 2;
+  // Urgency is renewed while the surface still takes shape: later it hardly changes, and costs most.
+  static constexpr int kPlanesPerUrgency = 2, kLastUrgency = kMaxUrgency + 8 * kPassesPerPlane;
   static constexpr int kLevels = kMaxSubdivisionLevel + 1;
   MixedModel<4> base_model_{{16, 16 * 8, 32, 8 * 32}, 1};
-  MixedModel<6> significance_model_{
-      {2 * 2 * 2 * 10 * 8, 3 * 32 * kLevels, 3 * 2 * 6 * 8, 2 * 24 * kLevels, 2 * 7 * 8 * 8, 3 * 10 * 10}, 2};
-  MixedModel<4> refinement_model_{{5 * 8, 5 * 3, 5 * kLevels, 5 * 8}, 1};
-  MixedModel<4> descendants_model_{{3 * 5 * 3, 3 * 32 * kLevels, 2 * 6 * kLevels, 2 * 8}, 2};
+  MixedModel<3> significance_model_{{3 * 32 * kLevels, 2 * 24 * kLevels, 3 * 10 * 10}, 2};
+  MixedModel<2> refinement_model_{{5 * 8, 5 * 8}, 1};
+  MixedModel<2> descendants_model_{{2 * 5 * 3 * 4, 2 * 6 * kLevels}, 2};
 };
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace gsp {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Integers of one mesh, as far as they are known: all bits from the top down to `low_plane`, zeros below.
+/// Integers of one mesh, as far as they are known: all bits from the top down to the lowest plane known, zeros below.
 struct BitplaneCoefficients {
   /// #B base vertices, offsets from the origin in base steps, and the lowest plane known of each.
   std::vector<std::array<std::uint32_t, 3>> base;
@@ -54,8 +54,8 @@ struct BitplaneParts {
 };
 
 /// Appends the embedded stream to `out`: bits in the order of their plane and their node's urgency; in each pass the
-/// base positions first, then the details level by level. A node's bits end at plane (kMaxUrgency - urgency) /
-/// kPassesPerPlane, so that all end at the same importance.
+/// base positions first, then level by level the details and whether there are any below. A node's bits end at plane
+/// (kMaxUrgency - urgency) / kPassesPerPlane, so that all end at the same importance. O(nodes) for each plane.
 BitplaneParts encode_bitplanes(const EdgeForest& forest, const BitplaneLayout& layout,
                                const BitplaneCoefficients& coefficients, Bytes& out);
 

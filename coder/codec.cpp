@@ -41,7 +41,7 @@ void check(const SemiregularMesh& mesh, const EncodeOptions& options) {
 }
 
 /// Meshes of so many faces are decoded from any prefix; finer levels of larger ones need bytes that speak of them.
-constexpr std::int64_t kFreeFaces = 1 << 18, kFacesPerByte = 2048;
+constexpr std::int64_t kFreeFaces = 1 << 19, kFacesPerByte = 2048;
 
 std::int64_t faces_at(const StreamHeader& header, int level) {
   return static_cast<std::int64_t>(header.base.faces.size()) << (2 * level);
@@ -54,18 +54,14 @@ int finest_level(const StreamHeader& header, std::int64_t faces) {
   return level;
 }
 
-/// Level of the reconstruction that importance is read from, at most: at least as coarse as what any prefix decodes to.
-constexpr int kImportanceLevel = 5;
-
-int importance_level(const StreamHeader& header) {
-  return std::min(kImportanceLevel, finest_level(header, kFreeFaces));
-}
+/// Level of the reconstruction that importance is read from, at most: as coarse as what any prefix decodes to.
+int importance_level(const StreamHeader& header) { return finest_level(header, kFreeFaces); }
 
 /// -1 where no detail is.
 int finest_significant_level(const BitplaneCoefficients& known, const EdgeForest& forest) {
   int node = forest.nodes() - 1;
   const auto zero = [&](int n) {
-    return known.details[0].magnitude[n] + known.details[1].magnitude[n] + known.details[2].magnitude[n] == 0;
+    return (known.details[0].magnitude[n] | known.details[1].magnitude[n] | known.details[2].magnitude[n]) == 0;
   };
   while (node >= 0 && zero(node)) --node;
   int level = forest.levels() - 1;
@@ -73,32 +69,34 @@ int finest_significant_level(const BitplaneCoefficients& known, const EdgeForest
   return level;
 }
 
+/// The levels whose edges carry details of a mesh of `level`.
+std::vector<SubdivisionLevel> detail_levels(const StreamHeader& header, int level) {
+  if (level == 0) return {};
+  return subdivision_levels(header.base.vertices, header.base.faces, level - 1);
+}
+
 /// Everything that encoder and decoder derive from the header and the level that they go to.
 struct Structure {
   const StreamHeader& header;
-  std::vector<SubdivisionLevel> levels;
-  EdgeForest forest;
   WaveletTransform transform;
+  const std::vector<SubdivisionLevel>& levels;
+  EdgeForest forest;
 
   Structure(const StreamHeader& h, int level)
-      : header(h),
-        levels(subdivision_levels(h.base.vertices, h.base.faces, level)),
-        forest(levels),
-        transform(levels, h.wavelet) {}
+      : header(h), transform(detail_levels(h, level), h.wavelet), levels(transform.levels()), forest(levels) {}
 
-  /// Positions of levels 0 to `level` from what is known of the coefficients, `visit`ed one by one.
+  /// Positions of `level` from what is known of the coefficients; those of the coarser levels are `visit`ed on the way.
   template <class Visit>
-  void reconstruct(const BitplaneCoefficients& known, int level, Visit visit) const {
+  std::vector<Vec3> reconstruct(const BitplaneCoefficients& known, int level, Visit visit) const {
     std::vector<Vec3> positions = dequantize_base(known, header);
     for (int l = 0; l < level; ++l) {
       const std::vector<Frame> frames = edge_frames(levels[l], positions);
       std::vector<Vec3> details = dequantize_details(known, forest, l, header);
       for (std::size_t e = 0; e < frames.size(); ++e) details[e] = frames[e] * details[e];
-      std::vector<Vec3> finer = transform.synthesis(l, positions, details);
-      visit(std::move(positions));
-      positions = std::move(finer);
+      visit(positions);
+      positions = transform.synthesis(l, std::move(positions), details);
     }
-    visit(std::move(positions));
+    return positions;
   }
 
   BitplaneLayout layout() const {
@@ -106,15 +104,15 @@ struct Structure {
     layout.base_planes = header.base_planes;
     layout.detail_planes = header.detail_planes;
     layout.levels = header.level;
-    layout.base_neighbours.resize(levels[0].vertex_count);
-    for (const auto& [a, b] : levels[0].edges) {
+    layout.base_neighbours.resize(header.base.vertices);
+    for (const auto& [a, b] : base_level(header.base.vertices, header.base.faces).edges) {
       layout.base_neighbours[a].push_back(b);
       layout.base_neighbours[b].push_back(a);
     }
     layout.urgency = [this](const BitplaneCoefficients& known) {
       std::vector<std::vector<Vec3>> positions;
-      reconstruct(known, std::min(importance_level(header), finest_significant_level(known, forest) + 2),
-                  [&](std::vector<Vec3>&& p) { positions.push_back(std::move(p)); });
+      const int finest = std::min(importance_level(header), finest_significant_level(known, forest) + 2);
+      positions.push_back(reconstruct(known, finest, [&](const std::vector<Vec3>& p) { positions.push_back(p); }));
       return surface_urgency(levels, forest, positions, header.tangential_ratio);
     };
     return layout;
@@ -195,7 +193,7 @@ SemiregularMesh decode(const Bytes& stream, std::size_t budget) {
       decode_bitplanes(structure.forest, structure.layout(), begin + needed, begin + end);
   mesh.base_vertices = header.base.vertices;
   mesh.base_faces = header.base.faces;
-  structure.reconstruct(known, mesh.level, [&](std::vector<Vec3>&& p) { mesh.positions = std::move(p); });
+  mesh.positions = structure.reconstruct(known, mesh.level, [](const std::vector<Vec3>&) {});
   return mesh;
 }
 

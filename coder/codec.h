@@ -25,8 +25,8 @@ struct EncodeOptions {
   /// It sets where the stream ends: the whole stream codes every coefficient to about this step, times the inverse
   /// square root of the local over the mean triangle area. At most 25 less the number of levels is used.
   int precision_bits = 16;
-  /// Largest step of tangential components over that of normal ones, a power of two: 1, 2, 4, 8. It is reached where the
-  /// surface is flat and smooth (coder/importance.h); where normals vary, steps are closer to equal.
+  /// Largest step of tangential components over that of normal ones, a power of two: 1, 2, 4, 8. It is reached where
+  /// the surface is flat and smooth (coder/importance.h); where normals vary, steps are closer to equal.
   int tangential_ratio = 8;
 };
 
@@ -42,8 +42,8 @@ struct StreamParts {
 ///
 /// A decoder numbers base vertices and faces, and with them all finer vertices, in the order in which they were coded;
 /// `coded_vertex_order` (coder/coded_order.h) says which vertex became which.
-/// `parts`, where given, receives the sizes. Throws Error: BadOption, NoFaces, NonFinite, Malformed (a base vertex without a face), SolverFailed, and the errors
-/// of `base_level`.
+/// `parts`, where given, receives the sizes. Throws Error: BadOption, NoFaces, NonFinite, Malformed (a base vertex
+/// without a face), SolverFailed, and the errors of `base_level`.
 Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress& progress,
              StreamParts* parts = nullptr);
 
@@ -51,7 +51,7 @@ Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress
 std::size_t header_bytes(const Bytes& stream);
 
 /// Decodes the first `budget` bytes of the stream (all of them where it is larger). Hostile bytes are safe: memory is
-/// under 100 MB for the first 2^18 faces and less than 1 MB for each further byte. A prefix too short for its finest
+/// under 100 MB for the first 2^19 faces and less than 1 MB for each further byte. A prefix too short for its finest
 /// levels, less than a byte for 2048 faces, decodes to the level that it can hold.
 /// Throws Error: BadStream where the header is damaged, Truncated where the budget does not hold it.
 SemiregularMesh decode(const Bytes& stream, std::size_t budget);

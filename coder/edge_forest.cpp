@@ -1,5 +1,7 @@
 #include "coder/edge_forest.h"
 
+#include <algorithm>
+
 namespace gsp {
 
 namespace {
@@ -30,18 +32,21 @@ std::array<int, 4> other_sides(const SubdivisionLevel& level, int e, int first_n
 
 EdgeForest::EdgeForest(const std::vector<SubdivisionLevel>& levels) {
   int nodes = 0;
-  // The finest level's edges carry no details: nothing is inserted on them.
-  for (std::size_t l = 0; l + 1 < levels.size(); ++l) {
+  for (const SubdivisionLevel& level : levels) {
     level_begin.push_back(nodes);
-    nodes += levels[l].edge_count();
+    nodes += level.edge_count();
   }
   level_begin.push_back(nodes);
   parent.reserve(nodes);
   neighbours.reserve(nodes);
-  for (std::size_t l = 0; l + 1 < levels.size(); ++l)
+  children.resize(nodes);
+  for (auto& c : children) c.fill(kNone);
+  for (std::size_t l = 0; l < levels.size(); ++l)
     for (int e = 0; e < levels[l].edge_count(); ++e) {
+      const int node = static_cast<int>(parent.size());
       parent.push_back(l == 0 ? kNone : level_begin[l - 1] + parent_edge(levels[l - 1], levels[l], e));
       neighbours.push_back(other_sides(levels[l], e, level_begin[l]));
+      if (l > 0) *std::find(children[parent.back()].begin(), children[parent.back()].end(), kNone) = node;
     }
 }
 

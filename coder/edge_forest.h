@@ -15,8 +15,10 @@ struct EdgeForest {
 
   std::vector<int> level_begin;                ///< #levels + 1, first node of each level
   std::vector<int> parent;                     ///< #N, kNone for roots
+  std::vector<std::array<int, 4>> children;    ///< #N, kNone after the last, and at the finest level
   std::vector<std::array<int, 4>> neighbours;  ///< #N, the other sides of the edge's triangles, kNone on a boundary
 
+  /// `levels`: those whose edges carry details.
   explicit EdgeForest(const std::vector<SubdivisionLevel>& levels);
 
   int levels() const { return static_cast<int>(level_begin.size()) - 1; }

@@ -1,5 +1,6 @@
 #include "coder/header.h"
 
+#include <algorithm>
 #include <iterator>
 #include <string>
 
@@ -9,7 +10,7 @@ namespace gsp {
 
 namespace {
 
-constexpr std::array<std::uint8_t, 4> kMagic = {'P', 'G', 'C', 3};
+constexpr std::array<std::uint8_t, 4> kMagic = {'P', 'G', 'C', 4};
 constexpr std::size_t kChecksumEnd = kMagic.size() + 4;
 
 [[noreturn]] void refuse(const std::string& why) { throw Error(Cause::BadStream, "not a usable coded mesh: " + why); }
@@ -72,7 +73,7 @@ class Parser {
 /// Past the magic and the checksum: the size of the rest.
 std::uint64_t size_of_rest(Parser& parser) {
   for (std::uint8_t expected : kMagic)
-    if (parser.byte() != expected) refuse("it does not start with 'PGC' and version 3");
+    if (parser.byte() != expected) refuse("it does not start with 'PGC' and version 4");
   for (int b = 0; b < 4; ++b) parser.byte();
   const std::uint64_t size = parser.varint();
   if (size > static_cast<std::uint64_t>(kMaxDecodedFaces)) refuse("the header is too large");
@@ -97,8 +98,8 @@ Bytes write_header(const StreamHeader& header, const Bytes& connectivity) {
   Bytes sized;
   put_varint(sized, rest.size());
   sized.insert(sized.end(), rest.begin(), rest.end());
-  Bytes bytes(kMagic.begin(), kMagic.end());
-  bytes.resize(kChecksumEnd);
+  Bytes bytes(kChecksumEnd);
+  std::copy(kMagic.begin(), kMagic.end(), bytes.begin());
   bytes.insert(bytes.end(), sized.begin(), sized.end());
   seal_header(bytes);
   return bytes;

@@ -12,7 +12,22 @@ namespace gsp {
 
 namespace {
 
-using Moment = Eigen::Matrix3d;
+/// A symmetric matrix: xx, yy, zz, xy, xz, yz.
+using Moment = Eigen::Matrix<double, 6, 1>;
+
+Moment products(const Vec3& v) {
+  Moment m;
+  m << v.x() * v.x(), v.y() * v.y(), v.z() * v.z(), v.x() * v.y(), v.x() * v.z(), v.y() * v.z();
+  return m;
+}
+
+double trace(const Moment& m) { return m[0] + m[1] + m[2]; }
+
+/// fᵀ m f.
+double along(const Vec3& f, const Moment& m) {
+  const Moment p = products(f);
+  return p.head<3>().dot(m.head<3>()) + 2.0 * p.tail<3>().dot(m.tail<3>());
+}
 
 /// kPassesPerPlane·log2(sqrt(ratio)) rounded, by comparisons only.
 std::int8_t urgency_of(double ratio) {
@@ -25,14 +40,24 @@ std::int8_t urgency_of(double ratio) {
   return static_cast<std::int8_t>(std::clamp(half_octaves, kMinUrgency, kMaxUrgency));
 }
 
-/// Area times n·nᵀ of every face; its trace is the area.
-std::vector<Moment> face_moments(const SubdivisionLevel& level, const std::vector<Vec3>& positions) {
+/// Area times n·nᵀ of a triangle; its trace is the area.
+Moment face_moment(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 area = (b - a).cross(c - a) / 2;
+  const double size = area.norm();
+  return size > 1e-150 ? Moment(products(area) / size) : Moment::Zero();
+}
+
+/// Of each face, the moments of the four that it is quadrisected into. `positions` are those of the next level.
+std::vector<Moment> quadrisected_moments(const SubdivisionLevel& level, const std::vector<Vec3>& positions) {
   std::vector<Moment> moments(level.faces.size());
   for (int f = 0; f < level.face_count(); ++f) {
-    const Triangle& t = level.faces[f];
-    const Vec3 area = (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]) / 2;
-    const double size = area.norm();
-    moments[f] = size > 1e-150 ? Moment(area * (area / size).transpose()) : Moment::Zero();
+    std::array<Vec3, 3> corners, middles;
+    for (int k = 0; k < 3; ++k) {
+      corners[k] = positions[level.faces[f][k]];
+      middles[k] = positions[level.vertex_count + level.face_edges[f][k]];
+    }
+    moments[f] = face_moment(middles[0], middles[1], middles[2]);
+    for (int k = 0; k < 3; ++k) moments[f] += face_moment(corners[k], middles[k], middles[(k + 2) % 3]);
   }
   return moments;
 }
@@ -49,8 +74,7 @@ Moment support_moment(const SubdivisionLevel& level, const std::vector<Moment>& 
     if (face < 0) continue;
     add(face);
     for (int side : level.face_edges[face]) {
-      const auto& [f, g] = level.edge_faces[side];
-      const int beyond = f == face ? g : f;
+      const int beyond = level.other_face(side, face);
       if (side != e && beyond >= 0) add(beyond);
     }
   }
@@ -64,23 +88,21 @@ ComponentUrgency surface_urgency(const std::vector<SubdivisionLevel>& levels, co
   ComponentUrgency urgency;
   for (auto& component : urgency) component.assign(forest.nodes(), 0);
   const int finest = static_cast<int>(positions.size()) - 1;
-  std::vector<Moment> moments = face_moments(levels[finest], positions[finest]);
+  if (finest == 0) return urgency;
+  std::vector<Moment> moments = quadrisected_moments(levels[finest - 1], positions[finest]);
   double total = 0.0;
-  for (const Moment& m : moments) total += m.trace();
-  if (finest == 0 || !(total > 0.0 && std::isfinite(total))) return urgency;
+  for (const Moment& m : moments) total += trace(m);
+  if (!(total > 0.0 && std::isfinite(total))) return urgency;
   const double least = 1.0 / (tangential_ratio * tangential_ratio);
-  for (int l = finest; l >= 0; --l) {
-    if (l < finest) {
-      const std::vector<Frame> frames = edge_frames(levels[l], positions[l]);
-      const double scale = levels[l].face_count() / total;
-      for (int e = 0; e < levels[l].edge_count(); ++e) {
-        const Moment m = support_moment(levels[l], moments, e) * scale;
-        const double area = m.trace();
-        for (int c = 0; c < 3; ++c) {
-          const double along = frames[e].col(c).dot(m * frames[e].col(c));
-          urgency[c][forest.level_begin[l] + e] = urgency_of(c == 0 ? area : along + least * area);
-        }
-      }
+  for (int l = finest - 1; l >= 0; --l) {
+    const std::vector<Frame> frames = edge_frames(levels[l], positions[l]);
+    const double scale = levels[l].face_count() / total;
+    for (int e = 0; e < levels[l].edge_count(); ++e) {
+      const Moment m = support_moment(levels[l], moments, e) * scale;
+      const double area = trace(m);
+      const int n = forest.level_begin[l] + e;
+      urgency[0][n] = urgency_of(area);
+      for (int c = 1; c < 3; ++c) urgency[c][n] = urgency_of(along(frames[e].col(c), m) + least * area);
     }
     if (l == 0) break;
     for (std::size_t f = 0; f < moments.size() / 4; ++f)
@@ -88,8 +110,7 @@ ComponentUrgency surface_urgency(const std::vector<SubdivisionLevel>& levels, co
     moments.resize(moments.size() / 4);
   }
   for (auto& component : urgency)
-    for (int n = forest.level_begin[std::clamp(finest, 1, forest.levels())]; n < forest.nodes(); ++n)
-      component[n] = component[forest.parent[n]];
+    for (int n = forest.level_begin[finest]; n < forest.nodes(); ++n) component[n] = component[forest.parent[n]];
   return urgency;
 }
 

@@ -1,24 +1,21 @@
 #pragma once
 
-#include <Eigen/SparseCore>
+#include <memory>
 
-#include "remesh/semiregular.h"
+#include "coder/filter.h"
 
 namespace gsp {
 
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+/// Loop subdivision, from the vertices of a level to those of the next: smooth rules inside, the cubic spline's on
+/// boundaries, vertices with other than two boundary edges fixed (algorithms.md §5; Loop 1987, Hoppe et al. 1994).
+std::unique_ptr<Filter> loop_low_pass(const SubdivisionLevel& coarse);
 
-/// Loop subdivision as a matrix from the vertices of a level to those of the next: smooth rules inside, the cubic
-/// spline's on boundaries, vertices with other than two boundary edges fixed (algorithms.md §5; Loop 1987, Hoppe et al.
-/// 1994).
-SparseMatrix loop_low_pass(const SubdivisionLevel& coarse);
-
-/// The quadrature-mirror high-pass of the progressive geometry coder (Khodakovsky, Schröder, Sweldens 2000): one column
-/// per edge of the coarse level, centred on the vertex that the edge inserts. Loop's mask with signs alternating, 19
-/// taps on a regular lattice. Beside irregular vertices and boundaries the taps that do not exist are left out, and the
-/// column's zero sum is restored on its even taps. Boundary edges take the cubic spline's mask.
-/// `mirror_symmetric`: the mean of the two signings that are possible, which is the same seen from either side of the
-/// edge and has 11 taps, all on the edge's line and the two beside it.
-SparseMatrix loop_high_pass(const SubdivisionLevel& coarse, bool mirror_symmetric = false);
+/// The quadrature-mirror high-pass of the progressive geometry coder (Khodakovsky, Schröder, Sweldens 2000), from the
+/// edges of the coarse level, centred on the vertices that they insert. Loop's mask with signs alternating, 19 taps on
+/// a regular lattice. Beside irregular vertices and boundaries the taps that do not exist are left out, and the zero
+/// sum of an edge's taps is restored on the even ones. Boundary edges take the cubic spline's mask. `mirror_symmetric`:
+/// the mean of the two signings that are possible, which is the same seen from either side of the edge and has 11 taps,
+/// all on the edge's line and the two beside it.
+std::unique_ptr<Filter> loop_high_pass(const SubdivisionLevel& coarse, bool mirror_symmetric = false);
 
 }  // namespace gsp

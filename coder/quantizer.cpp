@@ -110,22 +110,23 @@ std::vector<Vec3> dequantize_base(const BitplaneCoefficients& integers, const St
 
 std::vector<Vec3> dequantize_details(const BitplaneCoefficients& integers, const EdgeForest& forest, int level,
                                      const StreamHeader& header) {
-  // Small magnitudes are likelier inside each interval, most of all the lowest; yet details that are still zero, and the
-  // chords of the finest triangles, leave the surface too flat, which larger values make up for. Found by measurement.
+  // Small magnitudes are likelier inside each interval, most of all the lowest; yet details that are still zero, and
+  // the chords of the finest triangles, leave the surface too flat, which larger values make up for. Found by
+  // measurement.
   constexpr double kFirstCentroid = 0.47, kCentroid = 0.55;
-  std::vector<Vec3> details;
-  details.reserve(forest.level_begin[level + 1] - forest.level_begin[level]);
-  for (int n = forest.level_begin[level]; n < forest.level_begin[level + 1]; ++n) {
-    Vec3 d = Vec3::Zero();
-    for (int c = 0; c < 3; ++c) {
-      const BitplaneCoefficients::Component& component = integers.details[c];
-      const std::uint32_t magnitude = component.magnitude[n];
+  const double step = detail_step(header, level);
+  const int begin = forest.level_begin[level];
+  std::vector<Vec3> details(forest.level_begin[level + 1] - begin, Vec3::Zero());
+  for (int c = 0; c < 3; ++c) {
+    const BitplaneCoefficients::Component& component = integers.details[c];
+    for (std::size_t e = 0; e < details.size(); ++e) {
+      const std::uint32_t magnitude = component.magnitude[begin + e];
       if (magnitude == 0) continue;
-      const bool just_found = magnitude >> component.low_plane[n] == 1;
-      const double centre = magnitude + std::ldexp(just_found ? kFirstCentroid : kCentroid, component.low_plane[n]);
-      d[c] = centre * detail_step(header, level) * (component.negative[n] ? -1.0 : 1.0);
+      const int plane = component.low_plane[begin + e];
+      const double share = magnitude >> plane == 1 ? kFirstCentroid : kCentroid;
+      const double centre = magnitude + share * static_cast<double>(1u << plane);
+      details[e][c] = centre * (component.negative[begin + e] ? -step : step);
     }
-    details.push_back(d);
   }
   return details;
 }

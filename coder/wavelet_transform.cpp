@@ -1,6 +1,7 @@
 #include "coder/wavelet_transform.h"
 
 #include <algorithm>
+#include <memory>
 #include <string>
 
 #include "coder/butterfly_filters.h"
@@ -56,50 +57,47 @@ void for_each(std::size_t count, Body body) {
 /// a / b, 0 where b is: a coordinate that is solved exactly stands still.
 Scalars ratio(const Scalars& a, const Scalars& b) { return (b != 0.0).select(a / (b != 0.0).select(b, 1.0), 0.0); }
 
-/// The high-pass of an interpolating scheme: each detail moves the vertex on its edge.
-SparseMatrix new_vertices(const SubdivisionLevel& level) {
-  SparseMatrix matrix(level.vertex_count + level.edge_count(), level.edge_count());
-  matrix.reserve(Eigen::VectorXi::Ones(matrix.rows()));
-  for (int e = 0; e < level.edge_count(); ++e) matrix.insert(level.vertex_count + e, e) = 1.0;
-  matrix.makeCompressed();
-  return matrix;
-}
+/// [P Q] of one step as matrices, for an iterative solver.
+class Synthesis {
+ public:
+  Synthesis(const Filter& low_pass, const Filter& high_pass) {
+    const int vertices = low_pass.level().vertex_count, edges = low_pass.level().edge_count();
+    low_pass_ = matrix_of(low_pass, vertices + edges, vertices);
+    high_pass_ = matrix_of(high_pass, vertices + edges, edges);
+  }
 
-}  // namespace
-
-struct WaveletTransform::Impl {
-  SparseMatrix low_pass, high_pass;
-  SparseMatrix update;  ///< of lifted wavelets, else empty: synthesis is P (c - update d) + Q d
-
-  /// Both filters of (coarse, details).
-  Points synthesis(const Vec3* coarse, const Vec3* details) const {
-    Points fine(low_pass.rows(), Vec3::Zero());
-    Points lifted;
-    if (update.size() != 0) {
-      lifted.assign(low_pass.cols(), Vec3::Zero());
-      parallel_for(lifted.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-        add_product(update, details, begin, end, lifted);
-        for (std::size_t v = begin; v < end; ++v) lifted[v] = coarse[v] - lifted[v];
-      });
-      coarse = lifted.data();
-    }
+  Points operator()(const Points& both) const {
+    Points fine(low_pass_.rows(), Vec3::Zero());
     parallel_for(fine.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-      add_product(low_pass, coarse, begin, end, fine);
-      add_product(high_pass, details, begin, end, fine);
+      add_product(low_pass_, both.data(), begin, end, fine);
+      add_product(high_pass_, both.data() + low_pass_.cols(), begin, end, fine);
     });
     return fine;
   }
-  Points synthesis(const Points& both) const { return synthesis(both.data(), both.data() + low_pass.cols()); }
+
+ private:
+  SparseMatrix low_pass_, high_pass_;
 };
 
-WaveletTransform::WaveletTransform(const std::vector<SubdivisionLevel>& levels, Wavelet wavelet) {
-  for (std::size_t l = 0; l + 1 < levels.size(); ++l) {
-    const SubdivisionLevel& level = levels[l];
+}  // namespace
+
+/// Loop's step is P c + Q d. An interpolating scheme's details move the vertices on their edges; lifting takes `update`
+/// of the details off the old ones first.
+struct WaveletTransform::Step {
+  std::unique_ptr<Filter> low_pass;
+  std::unique_ptr<Filter> high_pass;  ///< none where the scheme interpolates
+  std::unique_ptr<Filter> update;     ///< of lifted wavelets
+};
+
+WaveletTransform::WaveletTransform(std::vector<SubdivisionLevel> levels, Wavelet wavelet) : levels_(std::move(levels)) {
+  for (const SubdivisionLevel& level : levels_) {
+    Step& step = steps_.emplace_back();
     if (wavelet == Wavelet::Loop || wavelet == Wavelet::Loop11) {
-      impl_.push_back({loop_low_pass(level), loop_high_pass(level, wavelet == Wavelet::Loop11), {}});
+      step.low_pass = loop_low_pass(level);
+      step.high_pass = loop_high_pass(level, wavelet == Wavelet::Loop11);
     } else {
-      const bool lifted = wavelet == Wavelet::ButterflyLifted;
-      impl_.push_back({butterfly_low_pass(level), new_vertices(level), lifted ? butterfly_update(level) : SparseMatrix()});
+      step.low_pass = butterfly_low_pass(level);
+      if (wavelet == Wavelet::ButterflyLifted) step.update = butterfly_update(level);
     }
   }
 }
@@ -107,23 +105,47 @@ WaveletTransform::WaveletTransform(const std::vector<SubdivisionLevel>& levels, 
 WaveletTransform::~WaveletTransform() = default;
 WaveletTransform::WaveletTransform(WaveletTransform&&) noexcept = default;
 
-int WaveletTransform::levels() const { return static_cast<int>(impl_.size()); }
-
-std::vector<Vec3> WaveletTransform::synthesis(int level, const std::vector<Vec3>& coarse,
+std::vector<Vec3> WaveletTransform::synthesis(int level, std::vector<Vec3> coarse,
                                               const std::vector<Vec3>& details) const {
-  return impl_[level].synthesis(coarse.data(), details.data());
+  const Step& step = steps_[level];
+  if (step.update) {
+    Points update(coarse.size(), Vec3::Zero());
+    add_filtered(*step.update, details.data(), update.data());
+    for (std::size_t v = 0; v < coarse.size(); ++v) coarse[v] -= update[v];
+  }
+  Points fine(coarse.size() + details.size(), Vec3::Zero());
+  add_filtered(*step.low_pass, coarse.data(), fine.data());
+  if (step.high_pass)
+    add_filtered(*step.high_pass, details.data(), fine.data());
+  else
+    for (std::size_t e = 0; e < details.size(); ++e) fine[coarse.size() + e] += details[e];
+  return fine;
+}
+
+WaveletTransform::Split WaveletTransform::interpolating_analysis(int level, const std::vector<Vec3>& fine) const {
+  const Step& step = steps_[level];
+  const std::size_t coarse_count = levels_[level].vertex_count;
+  const auto middle = fine.begin() + static_cast<std::ptrdiff_t>(coarse_count);
+  Split split{{fine.begin(), middle}, {middle, fine.end()}};
+  Points predicted(fine.size(), Vec3::Zero());
+  add_filtered(*step.low_pass, split.coarse.data(), predicted.data());
+  for (std::size_t e = 0; e < split.details.size(); ++e) split.details[e] -= predicted[coarse_count + e];
+  if (step.update) add_filtered(*step.update, split.details.data(), split.coarse.data());
+  return split;
 }
 
 WaveletTransform::Split WaveletTransform::analysis(int level, const std::vector<Vec3>& fine) const {
+  const Step& step = steps_[level];
+  if (!step.high_pass) return interpolating_analysis(level, fine);
   // BiCGSTAB (van der Vorst 1992) without a preconditioner: the filters' diagonal is all but constant, their condition
   // about 5. Sampling the fine mesh is a start whose residual is already as small as the details.
   constexpr double kTolerance = 1e-13;
   constexpr int kMaxIterations = 500;
-  const Impl& filters = impl_[level];
-  const std::size_t n = fine.size(), coarse_count = filters.low_pass.cols();
+  const Synthesis synthesize(*step.low_pass, *step.high_pass);
+  const std::size_t n = fine.size(), coarse_count = levels_[level].vertex_count;
   Points x(n, Vec3::Zero());
   std::copy_n(fine.begin(), coarse_count, x.begin());
-  Points r = filters.synthesis(x);
+  Points r = synthesize(x);
   for_each(n, [&](std::size_t i) { r[i] = fine[i] - r[i]; });
   const Points shadow = r;
   Points p(n, Vec3::Zero()), v(n, Vec3::Zero()), s(n);
@@ -137,10 +159,10 @@ WaveletTransform::Split WaveletTransform::analysis(int level, const std::vector<
     const Scalars beta = ratio(next_rho, rho) * ratio(alpha, omega);
     rho = next_rho;
     for_each(n, [&](std::size_t i) { p[i].array() = r[i].array() + beta * (p[i].array() - omega * v[i].array()); });
-    v = filters.synthesis(p);
+    v = synthesize(p);
     alpha = ratio(rho, dot(shadow, v));
     for_each(n, [&](std::size_t i) { s[i].array() = r[i].array() - alpha * v[i].array(); });
-    const Points t = filters.synthesis(s);
+    const Points t = synthesize(s);
     omega = ratio(dot(t, s), dot(t, t));
     for_each(n, [&](std::size_t i) {
       x[i].array() += alpha * p[i].array() + omega * s[i].array();

@@ -19,30 +19,34 @@ inline constexpr Wavelet kWavelets[] = {Wavelet::Loop, Wavelet::Loop11, Wavelet:
 /// edges in edge order, so that the coefficient at index V_l + e belongs to edge e of level l.
 class WaveletTransform {
  public:
-  /// Builds P and Q of every level. O(vertices).
-  explicit WaveletTransform(const std::vector<SubdivisionLevel>& levels, Wavelet wavelet = Wavelet::Loop);
+  /// `levels`: those whose edges carry details, from the base to the last but one of the mesh. O(vertices).
+  explicit WaveletTransform(std::vector<SubdivisionLevel> levels, Wavelet wavelet = Wavelet::Loop);
   ~WaveletTransform();
   WaveletTransform(WaveletTransform&&) noexcept;
 
-  int levels() const;
+  const std::vector<SubdivisionLevel>& levels() const { return levels_; }
 
-  /// One step, P c + Q d: positions of level l+1 from those of level l and the details of its edges.
-  std::vector<Vec3> synthesis(int level, const std::vector<Vec3>& coarse, const std::vector<Vec3>& details) const;
+  /// One step, P c + Q d: positions of level l+1 from those of level l and the details of its edges. O(vertices), on
+  /// one thread.
+  std::vector<Vec3> synthesis(int level, std::vector<Vec3> coarse, const std::vector<Vec3>& details) const;
 
   struct Split {
     std::vector<Vec3> coarse;
     std::vector<Vec3> details;
-    int iterations = 0;  ///< of the iterative solver
+    int iterations = 0;  ///< of the iterative solver; 0 where there is a closed form
   };
 
-  /// Solves [P Q][c; d] = x to rounding (relative residual 1e-13 in each coordinate). Time in proportion to the
-  /// vertices: about 40 iterations of two products with [P Q], the same bits for any number of threads. Throws
-  /// Error(SolverFailed) where it does not converge.
+  /// Solves [P Q][c; d] = x to rounding (relative residual 1e-13 in each coordinate). O(vertices): in closed form for
+  /// Butterfly, for Loop about 40 iterations of two products with [P Q], the same bits for any number of threads.
+  /// Throws Error(SolverFailed) where it does not converge.
   Split analysis(int level, const std::vector<Vec3>& fine) const;
 
  private:
-  struct Impl;
-  std::vector<Impl> impl_;
+  struct Step;
+  Split interpolating_analysis(int level, const std::vector<Vec3>& fine) const;
+
+  std::vector<SubdivisionLevel> levels_;
+  std::vector<Step> steps_;
 };
 
 }  // namespace gsp

@@ -60,6 +60,19 @@ SubdivisionLevel base_level(int base_vertices, const std::vector<Triangle>& base
   return level;
 }
 
+std::vector<VertexFan> vertex_fans(const SubdivisionLevel& level) {
+  std::vector<VertexFan> fans(level.vertex_count);
+  for (int e = 0; e < level.edge_count(); ++e)
+    for (int v : level.edges[e]) {
+      VertexFan& fan = fans[v];
+      ++fan.valence;
+      if (level.edge_faces[e][1] >= 0) continue;
+      if (fan.boundary_count < 2) fan.boundary_edges[fan.boundary_count] = e;
+      ++fan.boundary_count;
+    }
+  return fans;
+}
+
 SubdivisionLevel subdivide(const SubdivisionLevel& coarse) {
   SubdivisionLevel fine;
   const int vertices = coarse.vertex_count, edges = coarse.edge_count(), faces = coarse.face_count();

@@ -21,7 +21,37 @@ struct SubdivisionLevel {
 
   int edge_count() const { return static_cast<int>(edges.size()); }
   int face_count() const { return static_cast<int>(faces.size()); }
+
+  /// Of an edge, the end that is not `vertex`.
+  int other_end(int edge, int vertex) const { return edges[edge][edges[edge][0] == vertex]; }
+  /// Of an edge, the face that is not `face`; -1 on a boundary.
+  int other_face(int edge, int face) const { return edge_faces[edge][edge_faces[edge][0] == face]; }
+  /// Of a face, the corner that is not on its side `edge`.
+  int opposite_vertex(int face, int edge) const {
+    const std::array<int, 3>& sides = face_edges[face];
+    return faces[face][sides[0] == edge ? 2 : sides[1] == edge ? 0 : 1];
+  }
+  /// Of a face, the side at `vertex` that is not `edge`, which is another side at that vertex.
+  int other_side(int face, int edge, int vertex) const {
+    for (int k = 0; k < 2; ++k) {
+      const int side = face_edges[face][k];
+      if (side != edge && (edges[side][0] == vertex || edges[side][1] == vertex)) return side;
+    }
+    return face_edges[face][2];
+  }
 };
+
+/// The edges around a vertex of a level.
+struct VertexFan {
+  int valence = 0;
+  int boundary_count = 0;                        ///< edges with one face
+  std::array<int, 2> boundary_edges = {-1, -1};  ///< the first two of these
+
+  bool regular() const { return valence == 6 && boundary_count == 0; }
+};
+
+/// #V. O(E).
+std::vector<VertexFan> vertex_fans(const SubdivisionLevel& level);
 
 /// Deepest level that any part of gsp makes or reads: 4^10 faces for each base face.
 inline constexpr int kMaxSubdivisionLevel = 10;

@@ -80,6 +80,7 @@ TEST_CASE("a prefix too short for the finest level decodes to a coarser one, and
   const SemiregularMesh mesh = samples::bumpy_sphere(8);
   Progress silent;
   EncodeOptions options;
+  options.wavelet = Wavelet::Butterfly;
   options.precision_bits = 8;
   const Bytes stream = encode(mesh, options, silent);
   const std::size_t header = header_bytes(stream);

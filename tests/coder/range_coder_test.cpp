@@ -77,8 +77,8 @@ TEST_CASE("a prefix yields right bits only, and all that it settles") {
 
 TEST_CASE("stretch and squash are inverse to their resolution") {
   for (int logit = -2800; logit <= 2800; logit += 7) {
-    const Probability p = squash(logit);
+    const Probability p = Logistic::squash(logit);
     CHECK(std::abs(p / 65536.0 - 1.0 / (1.0 + std::exp(-logit / 256.0))) < 0.008);
-    if (std::abs(logit) < 1200) CHECK(std::abs(stretch(p) - logit) < 64);
+    if (std::abs(logit) < 1200) CHECK(std::abs(Logistic::stretch(p) - logit) < 64);
   }
 }
