@@ -20,6 +20,7 @@ const char* wavelet_name(Wavelet wavelet);
 Wavelet wavelet_of(const std::string& name);
 
 struct EncodeOptions {
+  /// Loop is the transform with which the paper compares maps. `gsp encode` takes lifted Butterfly, which codes better.
   Wavelet wavelet = Wavelet::Loop;
   /// Bits per coordinate of the finest quantization of normal components relative to the bounding box, 8..24.
   /// It sets where the stream ends: the whole stream codes every coefficient to about this step, times the inverse

@@ -6,6 +6,7 @@
 
 #include "coder/base_connectivity.h"
 #include "coder/coded_order.h"
+#include "coder/local_frames.h"
 #include "tests/coder/sample_meshes.h"
 
 using namespace gsp;
@@ -66,6 +67,30 @@ TEST_CASE("the parts of a stream add up to it") {
   double bits = parts.bits.base;
   for (const BitplaneParts::Component& c : parts.bits.details) bits += c.trees + c.significance + c.signs + c.refinement;
   CHECK(bits / 8.0 == Approx(stream.size() - header_bytes(stream)).epsilon(0.005));
+}
+
+TEST_CASE("tangential components of a normal mesh cost less than a hundredth of its stream") {
+  Random random(3);
+  SemiregularMesh mesh = samples::refine(shapes::icosahedron(), 0, [](const Vec3& p) { return p; });
+  mesh.level = 5;
+  const WaveletTransform transform(subdivision_levels(mesh.base_vertices, mesh.base_faces, mesh.level - 1),
+                                   Wavelet::Butterfly);
+  for (int l = 0; l < mesh.level; ++l) {
+    std::vector<Vec3> details;
+    for (const Frame& frame : edge_frames(transform.levels()[l], mesh.positions))
+      details.push_back(frame.col(0) * ((random.uniform() - 0.5) * std::ldexp(0.2, -2 * l)));
+    mesh.positions = transform.synthesis(l, std::move(mesh.positions), details);
+  }
+  EncodeOptions options;
+  options.wavelet = Wavelet::Butterfly;
+  StreamParts parts;
+  const Bytes stream = encode(mesh, options, silent, &parts);
+  const auto bits = [&](int c) {
+    const BitplaneParts::Component& part = parts.bits.details[c];
+    return part.trees + part.significance + part.signs + part.refinement;
+  };
+  CHECK(bits(0) > 0.9 * 8.0 * stream.size());
+  CHECK(bits(1) + bits(2) < 0.01 * bits(0));
 }
 
 TEST_CASE("every prefix that holds the header decodes, and more bytes are better") {
