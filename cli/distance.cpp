@@ -56,8 +56,9 @@ Json report_of(const Psnr& psnr) {
   return {{"name", psnr.name}, {"db", psnr.db}, {"peak", psnr.peak}, {"formula", psnr.formula}};
 }
 
-Json metro_report(const Pair& pair, std::size_t samples, Progress& progress) {
-  const MetroDistances d = metro_distances(pair.a, pair.tree_a, pair.b, pair.tree_b, samples, progress);
+Json metro_report(const Pair& pair, Progress& progress) {
+  constexpr std::size_t kAsMetro = 0;
+  const MetroDistances d = metro_distances(pair.a, pair.tree_a, pair.b, pair.tree_b, kAsMetro, progress);
   return {{"forward", direction(d.forward)},
           {"backward", direction(d.backward)},
           {"inflated_diagonal", d.diagonal},
@@ -93,7 +94,7 @@ int run_distance(const Options& options, Context& context) {
     report["hausdorff_bounds"] = {
         {"forward", report_of(h.forward)}, {"backward", report_of(h.backward)}, {"both", report_of(h.both())}};
   }
-  if (options.metro) report["metro"] = metro_report(pair, 0, progress);
+  if (options.metro) report["metro"] = metro_report(pair, progress);
   if (!options.per_vertex.empty()) write_per_vertex(options.per_vertex, pair, d);
   report["samples"] = std::max(d.forward.samples, d.backward.samples);
   report["seed"] = options.distance.seed;

@@ -12,7 +12,7 @@
 #include "mesh/atomic_file.h"
 #include "mesh/error.h"
 #include "mesh/formats.h"
-#include "mesh/ply.h"
+#include "mesh/ply_elements.h"
 #include "mesh/read_file.h"
 
 namespace gsp {
@@ -28,25 +28,7 @@ MeshFormat require_format(const std::string& path) {
 }
 
 void write_ply_mesh(std::ostream& out, const Mesh& mesh, const std::vector<std::string>& comments) {
-  PlyElement vertex{"vertex", mesh.positions.size(), {}};
-  for (int k = 0; k < 3; ++k) {
-    PlyProperty p;
-    p.name = std::string(1, static_cast<char>('x' + k));
-    p.values.reserve(mesh.positions.size());
-    for (const Vec3& position : mesh.positions) p.values.push_back(position[k]);
-    vertex.properties.push_back(std::move(p));
-  }
-  PlyProperty corners;
-  corners.name = "vertex_indices";
-  corners.type = PlyType::Int32;
-  corners.count_type = PlyType::Uint8;
-  corners.values.reserve(3 * mesh.faces.size());
-  corners.starts.push_back(0);
-  for (const Triangle& t : mesh.faces) {
-    corners.values.insert(corners.values.end(), t.begin(), t.end());
-    corners.starts.push_back(corners.values.size());
-  }
-  write_ply(out, {comments, {std::move(vertex), {"face", mesh.faces.size(), {std::move(corners)}}}});
+  write_ply(out, {comments, {ply_vertices(mesh), ply_faces(mesh)}});
 }
 
 /// Appends the shortest decimal that reads back as the same number.

@@ -1,17 +1,18 @@
 #include "mesh/mesh.h"
 
-#include <limits>
-
-#include <Eigen/Geometry>
+#include "mesh/bounding_box.h"
 
 namespace gsp {
 
-double bounding_box_diagonal(const Mesh& mesh) {
-  if (mesh.faces.empty()) return 0.0;
+Eigen::AlignedBox3d bounding_box(const Mesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const Triangle& face : mesh.faces)
     for (int vertex : face) box.extend(mesh.positions[vertex]);
-  return box.diagonal().norm();
+  return box;
+}
+
+double bounding_box_diagonal(const Mesh& mesh) {
+  return mesh.faces.empty() ? 0.0 : bounding_box(mesh).diagonal().norm();
 }
 
 double face_area(const Mesh& mesh, int face) {

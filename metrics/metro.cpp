@@ -5,8 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Geometry>
-
+#include "mesh/bounding_box.h"
 #include "mesh/error.h"
 #include "mesh/parallel.h"
 #include "metrics/surface_tree_impl.h"
@@ -95,7 +94,8 @@ std::size_t sample_faces(const Mesh& mesh, double per_area, Batches& batches) {
     if (wanted < 1.0) continue;
     const int per_edge = static_cast<int>((std::sqrt(1.0 + 8.0 * wanted) + 5.0) / 2.0);
     const Vec3& a = mesh.positions[mesh.faces[f][0]];
-    const Vec3 u = (mesh.positions[mesh.faces[f][1]] - a) / (per_edge - 1), v = (mesh.positions[mesh.faces[f][2]] - a) / (per_edge - 1);
+    const Vec3 u = (mesh.positions[mesh.faces[f][1]] - a) / (per_edge - 1),
+               v = (mesh.positions[mesh.faces[f][2]] - a) / (per_edge - 1);
     for (int i = 1; i < per_edge - 1; ++i)
       for (int j = 1; j < per_edge - 1 - i; ++j) {
         batches.add(a + i * u + j * v);
@@ -130,10 +130,7 @@ MetroDistance one_way(const Mesh& from, const TriangleTree& to, std::size_t samp
 }
 
 double inflated_diagonal(const Mesh& a, const Mesh& b) {
-  Eigen::AlignedBox3d box;
-  for (const Mesh* mesh : {&a, &b})
-    for (const Triangle& face : mesh->faces)
-      for (int v : face) box.extend(mesh->positions[v]);
+  const Eigen::AlignedBox3d box = bounding_box(a).merged(bounding_box(b));
   const double offset = kInflation * box.diagonal().norm();
   return (box.sizes() + Vec3::Constant(2.0 * offset)).norm();
 }

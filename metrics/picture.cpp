@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "mesh/atomic_file.h"
-#include "mesh/ply.h"
+#include "mesh/ply_elements.h"
 
 namespace gsp {
 
@@ -36,31 +36,6 @@ void add_columns(PlyElement& element, const std::vector<PictureColumn>& columns,
   element.properties.push_back(std::move(quality));
 }
 
-PlyElement vertex_element(const Mesh& mesh) {
-  PlyElement element{"vertex", mesh.positions.size(), {}};
-  const char* names[3] = {"x", "y", "z"};
-  for (int k = 0; k < 3; ++k) {
-    PlyProperty& property = element.properties.emplace_back();
-    property.name = names[k];
-    for (const Vec3& p : mesh.positions) property.values.push_back(p[k]);
-  }
-  return element;
-}
-
-PlyElement face_element(const Mesh& mesh) {
-  PlyElement element{"face", mesh.faces.size(), {}};
-  PlyProperty& corners = element.properties.emplace_back();
-  corners.name = "vertex_indices";
-  corners.type = PlyType::Int32;
-  corners.count_type = PlyType::Uint8;
-  for (const Triangle& face : mesh.faces) {
-    corners.starts.push_back(corners.values.size());
-    corners.values.insert(corners.values.end(), face.begin(), face.end());
-  }
-  corners.starts.push_back(corners.values.size());
-  return element;
-}
-
 void write(const std::string& path, PlyElement vertices, PlyElement faces) {
   AtomicFile file(path);
   write_ply(file.stream(), {{"gsp picture"}, {std::move(vertices), std::move(faces)}});
@@ -80,16 +55,16 @@ std::array<double, 3> colour_of(const ColourScale& scale, double value) {
 
 void write_vertex_picture(const std::string& path, const Mesh& mesh, const std::vector<PictureColumn>& columns,
                           const ColourScale& scale) {
-  PlyElement vertices = vertex_element(mesh);
+  PlyElement vertices = ply_vertices(mesh);
   add_columns(vertices, columns, scale);
-  write(path, std::move(vertices), face_element(mesh));
+  write(path, std::move(vertices), ply_faces(mesh));
 }
 
 void write_face_picture(const std::string& path, const Mesh& mesh, const std::vector<PictureColumn>& columns,
                         const ColourScale& scale) {
-  PlyElement faces = face_element(mesh);
+  PlyElement faces = ply_faces(mesh);
   add_columns(faces, columns, scale);
-  write(path, vertex_element(mesh), std::move(faces));
+  write(path, ply_vertices(mesh), std::move(faces));
 }
 
 }  // namespace gsp

@@ -6,8 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/Geometry>
-
+#include "mesh/bounding_box.h"
 #include "mesh/error.h"
 #include "mesh/parallel.h"
 #include "metrics/area_sampler.h"
@@ -17,15 +16,11 @@ namespace gsp {
 
 namespace {
 
-double longest_side(const Mesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const Triangle& face : mesh.faces)
-    for (int v : face) box.extend(mesh.positions[v]);
-  return box.sizes().maxCoeff();
-}
+double longest_side(const Mesh& mesh) { return bounding_box(mesh).sizes().maxCoeff(); }
 
 double mpeg_db(double peak, double mean_square) {
-  return mean_square > 0.0 ? 10.0 * std::log10(3.0 * peak * peak / mean_square) : std::numeric_limits<double>::infinity();
+  return mean_square > 0.0 ? 10.0 * std::log10(3.0 * peak * peak / mean_square)
+                           : std::numeric_limits<double>::infinity();
 }
 
 /// Mean over even samples of the squared distance to the plane of the nearest face.
@@ -59,12 +54,13 @@ Psnr diagonal_psnr(const SurfaceDistance& distance) {
 
 Psnr mpeg_d1_psnr(const Mesh& reference, const SurfaceDistance& distance) {
   const double peak = longest_side(reference);
-  return {"MPEG D1 (point to point)", "10 log10(3 peak^2 / larger mean square), peak the longest side of the first's box",
-          peak, mpeg_db(peak, distance.rms() * distance.rms())};
+  return {"MPEG D1 (point to point)",
+          "10 log10(3 peak^2 / larger mean square), peak the longest side of the first's box", peak,
+          mpeg_db(peak, distance.rms() * distance.rms())};
 }
 
-Psnr mpeg_d2_psnr(const Mesh& reference, const SurfaceTree& reference_tree, const Mesh& other, const SurfaceTree& other_tree,
-                  const DistanceOptions& options, Progress& progress) {
+Psnr mpeg_d2_psnr(const Mesh& reference, const SurfaceTree& reference_tree, const Mesh& other,
+                  const SurfaceTree& other_tree, const DistanceOptions& options, Progress& progress) {
   if (options.samples < 1) throw Error(Cause::BadOption, "the surface distance needs at least one sample");
   const TriangleTree &to = other_tree.impl().tree, &from = reference_tree.impl().tree;
   progress.report("point to plane", 0.0);
@@ -73,7 +69,8 @@ Psnr mpeg_d2_psnr(const Mesh& reference, const SurfaceTree& reference_tree, cons
   const double backward = mean_squared_plane_distance(other, to, from, options);
   const double peak = longest_side(reference);
   return {"MPEG D2 (point to plane)",
-          "10 log10(3 peak^2 / larger mean square along the nearest face's normal), peak the longest side of the first's box",
+          "10 log10(3 peak^2 / larger mean square along the nearest face's normal), peak the longest side of the "
+          "first's box",
           peak, mpeg_db(peak, std::max(forward, backward))};
 }
 

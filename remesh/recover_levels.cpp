@@ -30,16 +30,9 @@ struct Coarsening {
 class Coarsener {
  public:
   Coarsener(int vertices, const std::vector<Triangle>& faces) : fine_(base_level(vertices, faces)) {
-    valence_.assign(vertices, 0);
-    boundary_edges_.assign(vertices, {-1, -1});
+    fans_ = vertex_fans(fine_);
     begin_.assign(vertices + 1, 0);
-    for (int e = 0; e < fine_.edge_count(); ++e)
-      for (int v : fine_.edges[e]) {
-        ++valence_[v];
-        ++begin_[v + 1];
-        if (fine_.edge_faces[e][1] < 0) boundary_edges_[v][boundary_edges_[v][0] < 0 ? 0 : 1] = e;
-      }
-    for (int v = 0; v < vertices; ++v) begin_[v + 1] += begin_[v];
+    for (int v = 0; v < vertices; ++v) begin_[v + 1] = begin_[v] + fans_[v].valence;
     incident_.resize(begin_.back());
     std::vector<int> next(begin_.begin(), begin_.end() - 1);
     for (int e = 0; e < fine_.edge_count(); ++e)
@@ -47,27 +40,21 @@ class Coarsener {
   }
 
   Coarsening run() {
-    parity_.assign(valence_.size(), Unknown);
+    parity_.assign(fans_.size(), Unknown);
     // Irregular vertices are old at every level; a component without any may start anywhere.
     for (const bool only_irregular : {true, false})
-      for (int v = 0; v < static_cast<int>(valence_.size()); ++v)
-        if (valence_[v] > 0 && parity_[v] == Unknown && !(only_irregular && regular(v))) spread_from(v);
+      for (int v = 0; v < static_cast<int>(fans_.size()); ++v)
+        if (fans_[v].valence > 0 && parity_[v] == Unknown && !(only_irregular && regular(v))) spread_from(v);
     return join_faces();
   }
 
  private:
   enum Parity : std::int8_t { Unknown, Old, New };
 
-  bool regular(int v) const { return valence_[v] == (boundary_edges_[v][0] < 0 ? 6 : 4); }
-
-  int other_end(int edge, int v) const {
-    const auto& [a, b] = fine_.edges[edge];
-    return a == v ? b : a;
-  }
+  bool regular(int v) const { return fans_[v].valence == (fans_[v].boundary_count == 0 ? 6 : 4); }
 
   void mark(int v, Parity parity) {
-    if (parity_[v] != Unknown && parity_[v] != parity)
-      refuse("a vertex is both old and new", Element::Vertex, v);
+    if (parity_[v] != Unknown && parity_[v] != parity) refuse("a vertex is both old and new", Element::Vertex, v);
     if (parity == New && !regular(v)) refuse("an irregular vertex stands where a new one should", Element::Vertex, v);
     parity_[v] = parity;
   }
@@ -79,9 +66,9 @@ class Coarsener {
       const int v = queue.back();
       queue.pop_back();
       for (int i = begin_[v]; i < begin_[v + 1]; ++i) {
-        const int middle = other_end(incident_[i], v);
+        const int middle = fine_.other_end(incident_[i], v);
         mark(middle, New);
-        const int beyond = other_end(straight_on(incident_[i], v, middle), middle);
+        const int beyond = fine_.other_end(straight_on(incident_[i], middle), middle);
         const bool news = parity_[beyond] == Unknown;
         mark(beyond, Old);
         if (news) queue.push_back(beyond);
@@ -89,28 +76,18 @@ class Coarsener {
     }
   }
 
-  /// The edge that continues (from, through) past the new vertex `through`.
-  int straight_on(int edge, int from, int through) const {
-    if (boundary_edges_[through][0] >= 0) {
-      const auto& [first, second] = boundary_edges_[through];
+  /// The edge that continues `edge` past the new vertex `through`.
+  int straight_on(int edge, int through) const {
+    if (fans_[through].boundary_count > 0) {
+      const auto& [first, second] = fans_[through].boundary_edges;
       if (edge != first && edge != second) refuse("a new vertex lies on no boundary edge", Element::Vertex, through);
       return edge == first ? second : first;
     }
-    int face = fine_.edge_faces[edge][0], behind = from;
+    int face = fine_.edge_faces[edge][0];
     for (int turn = 0; turn < 3; ++turn) {
       if (face < 0) refuse("faces around a vertex form more than one fan", Element::Vertex, through);
-      for (int v : fine_.faces[face])
-        if (v != behind && v != through) {
-          behind = v;
-          break;
-        }
-      for (int side : fine_.face_edges[face])
-        if (edge_key(fine_.edges[side][0], fine_.edges[side][1]) == edge_key(through, behind)) {
-          edge = side;
-          break;
-        }
-      const auto& [f, g] = fine_.edge_faces[edge];
-      face = f == face ? g : f;
+      edge = fine_.other_side(face, edge, through);
+      face = fine_.other_face(edge, face);
     }
     return edge;
   }
@@ -130,7 +107,8 @@ class Coarsener {
       coarse.faces.push_back(corners);
       for (int k = 0; k < 3; ++k) {
         const auto [at, is_new] = coarse.midpoints.try_emplace(edge_key(corners[k], corners[(k + 1) % 3]), t[k]);
-        if (!is_new && at->second != t[k]) refuse("two coarse edges would join the same vertices", Element::Vertex, t[k]);
+        if (!is_new && at->second != t[k])
+          refuse("two coarse edges would join the same vertices", Element::Vertex, t[k]);
       }
     }
     if (4 * coarse.faces.size() != fine_.faces.size())
@@ -149,8 +127,7 @@ class Coarsener {
   }
 
   SubdivisionLevel fine_;
-  std::vector<int> valence_;
-  std::vector<std::array<int, 2>> boundary_edges_;
+  std::vector<VertexFan> fans_;
   std::vector<int> begin_, incident_;
   std::vector<Parity> parity_;
 };
