@@ -18,8 +18,9 @@ struct Options {
 int run_export(const Options& options, Context& context) {
   const Store store = Store::open(options.run);
   const std::string recipe = store.plan(options.recipe).recipe;
-  print_report(context, {{"files", export_cells(store.cells(recipe), recipe, export_format_of(options.format),
-                                                options.output)}});
+  print_report(
+      context,
+      {{"files", export_cells(store.cells(recipe), recipe, export_format_of(options.format), options.output)}});
   return 0;
 }
 

@@ -9,10 +9,8 @@ namespace {
 Json optional(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
 Json average_report(const BdAverage& average, const char* unit) {
-  Json report = {{unit, average.value},
-                 {"from", average.from},
-                 {"to", average.to},
-                 {"overlap_share", average.overlap_share}};
+  Json report = {
+      {unit, average.value}, {"from", average.from}, {"to", average.to}, {"overlap_share", average.overlap_share}};
   if (average.small_overlap) report["warning"] = average.warning;
   return report;
 }

@@ -44,7 +44,8 @@ void print_cell(std::ostream& out, const StoredCell& cell) {
   std::string remark;
   if (cell.status == CellStatus::Failed) remark = fmt::format("({}): {}", cell.cause, cell.failure);
   if (cell.status == CellStatus::Waiting)
-    for (const StageResult& stage : cell.stages) remark += fmt::format("{}{} done", remark.empty() ? "" : ", ", stage_name(stage.kind));
+    for (const StageResult& stage : cell.stages)
+      remark += fmt::format("{}{} done", remark.empty() ? "" : ", ", stage_name(stage.kind));
   out << fmt::format("{:<8} {:<16} {} {}\n", status_name(cell.status), cell.model, cell.label, remark);
 }
 
@@ -98,7 +99,8 @@ int run_worker(const WorkerOptions& options, Context& context) {
     say("doing " + stage);
     return !interrupted();
   });
-  run_task(options.store, read_task(options.task), [&](const std::string& key) { say("begin " + key); }, progress);
+  run_task(
+      options.store, read_task(options.task), [&](const std::string& key) { say("begin " + key); }, progress);
   return 0;
 }
 

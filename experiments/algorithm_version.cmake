@@ -1,5 +1,5 @@
 # Run at every build: writes OUTPUT, which holds a hash of the sources of each stage, where it has changed.
-set(experiments experiments/anchor_curves.cpp experiments/meter.cpp experiments/rate_curve.cpp experiments/stages.cpp
+set(experiments experiments/anchor_curves.cpp experiments/map_numbers.cpp experiments/meter.cpp experiments/rate_curve.cpp experiments/stages.cpp
     experiments/stage_runner.cpp)
 set(parameterize_parts mesh param metrics)
 set(remesh_parts mesh param remesh metrics)

@@ -5,8 +5,9 @@
 
 namespace gsp {
 
-/// Writes a file of a store through `write(path)` and gives it the name of its content, "artefacts/ab/HASH.ENDING", which
-/// is returned relative to the store. It appears whole or not at all. Throws Error(CannotWrite) and what `write` throws.
+/// Writes a file of a store through `write(path)` and gives it the name of its content, "artefacts/ab/HASH.ENDING",
+/// which is returned relative to the store. It appears whole or not at all. Throws Error(CannotWrite) and what `write`
+/// throws.
 std::string keep_artefact(const std::string& store, const std::string& ending,
                           const std::function<void(const std::string& path)>& write);
 

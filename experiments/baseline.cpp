@@ -55,7 +55,7 @@ BaselineRow row_of(const StoredCell& cell) {
 Json row_json(const BaselineRow& row) {
   Json curve = Json::array();
   for (const RatePoint& point : row.curve) curve.push_back({point.bytes, point.psnr_db});
-  return {{"model", row.model},     {"label", row.label}, {"options", row.options}, {"cause", row.cause},
+  return {{"model", row.model},     {"label", row.label}, {"options", row.options},       {"cause", row.cause},
           {"numbers", row.numbers}, {"times", row.times}, {"ceiling_db", row.ceiling_db}, {"curve", curve}};
 }
 

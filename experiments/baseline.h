@@ -25,8 +25,8 @@ struct BaselineRow {
   std::map<std::string, double> numbers;
   /// CPU time of each stage, by "time parameterize" and so on, in units of the reference task of its session.
   std::map<std::string, double> times;
-  RateCurve curve;           ///< upper envelope of its points
-  double ceiling_db = 0.0;   ///< 0 where there is none
+  RateCurve curve;          ///< upper envelope of its points
+  double ceiling_db = 0.0;  ///< 0 where there is none
 };
 
 struct Baseline {

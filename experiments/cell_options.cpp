@@ -53,11 +53,28 @@ std::vector<Axis> map_axes() {
   return {
       {"method", kStage, Kind::Word, 0, 0, method_words(), [](const Options& o) { return Value(o.method); },
        [](Options& o, const Value& v) { o.method = word(v); }},
-      {"gamma", kStage, Kind::Number, 0, kMostWeight, {}, [](const Options& o) { return Value(o.parameterize.gamma); },
+      {"gamma",
+       kStage,
+       Kind::Number,
+       0,
+       kMostWeight,
+       {},
+       [](const Options& o) { return Value(o.parameterize.gamma); },
        [](Options& o, const Value& v) { o.parameterize.gamma = number(v); }},
-      {"mu", kStage, Kind::Number, 0, kMostWeight, {}, [](const Options& o) { return Value(o.parameterize.mu); },
+      {"mu",
+       kStage,
+       Kind::Number,
+       0,
+       kMostWeight,
+       {},
+       [](const Options& o) { return Value(o.parameterize.mu); },
        [](Options& o, const Value& v) { o.parameterize.mu = number(v); }},
-      {"base_vertices", kStage, Kind::Integer, 4, kMostInt, {kAuto},
+      {"base_vertices",
+       kStage,
+       Kind::Integer,
+       4,
+       kMostInt,
+       {kAuto},
        [](const Options& o) { return integer_or_auto(o.parameterize.base_vertices, 0); },
        [](Options& o, const Value& v) { o.parameterize.base_vertices = integer_or_auto(v, 0); }},
       {"objective", kStage, Kind::Word, 0, 0, objective_words(),
@@ -66,7 +83,12 @@ std::vector<Axis> map_axes() {
          for (Objective objective : kObjectives)
            if (word(v) == objective_name(objective)) o.parameterize.objective = objective;
        }},
-      {"relaxations", kStage, Kind::Integer, 0, kMostRelaxations, {},
+      {"relaxations",
+       kStage,
+       Kind::Integer,
+       0,
+       kMostRelaxations,
+       {},
        [](const Options& o) { return Value(std::int64_t{o.parameterize.relaxations}); },
        [](Options& o, const Value& v) { o.parameterize.relaxations = static_cast<int>(integer(v)); }},
   };
@@ -74,22 +96,47 @@ std::vector<Axis> map_axes() {
 
 std::vector<Axis> code_axes() {
   return {
-      {"level", StageKind::Remesh, Kind::Integer, 0, kMaxSubdivisionLevel, {kAuto},
+      {"level",
+       StageKind::Remesh,
+       Kind::Integer,
+       0,
+       kMaxSubdivisionLevel,
+       {kAuto},
        [](const Options& o) { return integer_or_auto(o.remesh.level, RemeshOptions::kAutoLevel); },
        [](Options& o, const Value& v) { o.remesh.level = integer_or_auto(v, RemeshOptions::kAutoLevel); }},
       {"wavelet", StageKind::Encode, Kind::Word, 0, 0, wavelet_words(),
        [](const Options& o) { return Value(wavelet_name(o.encode.wavelet)); },
        [](Options& o, const Value& v) { o.encode.wavelet = wavelet_of(word(v)); }},
-      {"precision_bits", StageKind::Encode, Kind::Integer, 8, 24, {},
+      {"precision_bits",
+       StageKind::Encode,
+       Kind::Integer,
+       8,
+       24,
+       {},
        [](const Options& o) { return Value(std::int64_t{o.encode.precision_bits}); },
        [](Options& o, const Value& v) { o.encode.precision_bits = static_cast<int>(integer(v)); }},
-      {"tangential_ratio", StageKind::Encode, Kind::Integer, 1, 8, {"1", "2", "4", "8"},
+      {"tangential_ratio",
+       StageKind::Encode,
+       Kind::Integer,
+       1,
+       8,
+       {"1", "2", "4", "8"},
        [](const Options& o) { return Value(std::int64_t{o.encode.tangential_ratio}); },
        [](Options& o, const Value& v) { o.encode.tangential_ratio = static_cast<int>(integer(v)); }},
-      {"samples", StageKind::Remesh, Kind::Integer, 1000, 1e9, {},
+      {"samples",
+       StageKind::Remesh,
+       Kind::Integer,
+       1000,
+       1e9,
+       {},
        [](const Options& o) { return Value(static_cast<std::int64_t>(o.samples)); },
        [](Options& o, const Value& v) { o.samples = static_cast<std::size_t>(integer(v)); }},
-      {"seed", StageKind::Remesh, Kind::Integer, 0, 0x1p62, {},
+      {"seed",
+       StageKind::Remesh,
+       Kind::Integer,
+       0,
+       0x1p62,
+       {},
        [](const Options& o) { return Value(static_cast<std::int64_t>(o.seed)); },
        [](Options& o, const Value& v) { o.seed = static_cast<std::uint64_t>(integer(v)); }},
   };
@@ -122,10 +169,14 @@ void add_options(Json& object, const CellOptions& options, StageKind stage) {
 
 const char* stage_name(StageKind kind) {
   switch (kind) {
-    case StageKind::Parameterize: return "parameterize";
-    case StageKind::Remesh: return "remesh";
-    case StageKind::Encode: return "encode";
-    case StageKind::Measure: break;
+    case StageKind::Parameterize:
+      return "parameterize";
+    case StageKind::Remesh:
+      return "remesh";
+    case StageKind::Encode:
+      return "encode";
+    case StageKind::Measure:
+      break;
   }
   return "measure";
 }
@@ -161,9 +212,9 @@ std::string Axis::refusal(const AxisValue& value) const {
   if (!words.empty() && std::find(words.begin(), words.end(), text) != words.end()) return {};
   const bool range = kind == Kind::Number || (kind == Kind::Integer && (words.empty() || words.front() == kAuto));
   if (!range) return fmt::format("{} is none of {}", text, fmt::join(words, ", "));
-  const bool fits = kind == Kind::Number ? std::holds_alternative<double>(value)
-                                         : std::holds_alternative<std::int64_t>(value);
-  const double x = !fits                    ? std::numeric_limits<double>::quiet_NaN()
+  const bool fits =
+      kind == Kind::Number ? std::holds_alternative<double>(value) : std::holds_alternative<std::int64_t>(value);
+  const double x = !fits                  ? std::numeric_limits<double>::quiet_NaN()
                    : kind == Kind::Number ? number(value)
                                           : static_cast<double>(integer(value));
   if (x >= low && x <= high) return {};
@@ -238,8 +289,8 @@ CellOptions options_from_json(const std::string& text) {
 }
 
 std::string further_options(const CellOptions& options) {
-  static const std::vector<std::string> columns = {"method", "gamma", "mu", "base_vertices", "level",
-                                                   "wavelet", "samples", "seed"};
+  static const std::vector<std::string> columns = {"method", "gamma",   "mu",      "base_vertices",
+                                                   "level",  "wavelet", "samples", "seed"};
   std::string text;
   for (const Axis& axis : axes()) {
     if (std::find(columns.begin(), columns.end(), axis.name) != columns.end() || !axis.applies_to(options.method))

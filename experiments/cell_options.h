@@ -28,8 +28,8 @@ struct CellOptions {
   RemeshOptions remesh;
   EncodeOptions encode;
   std::vector<std::size_t> budgets;  ///< bytes to decode; empty: 256, 512, 1024, ... and the whole stream
-  std::size_t samples = 200000;      ///< of the distance, per direction; decimate-draco, which has many points, takes half
-  std::uint64_t seed = 1;            ///< of the samples; they measure the remesh too
+  std::size_t samples = 200000;  ///< of the distance, per direction; decimate-draco, which has many points, takes half
+  std::uint64_t seed = 1;        ///< of the samples; they measure the remesh too
 };
 
 /// The words of `CellOptions::method`, and those that stand for maps.
@@ -50,7 +50,7 @@ struct Axis {
   const char* name;
   StageKind stage;  ///< the first stage whose result it changes
   Kind kind;
-  double low = 0.0, high = 0.0;  ///< inclusive, of integers and numbers
+  double low = 0.0, high = 0.0;    ///< inclusive, of integers and numbers
   std::vector<std::string> words;  ///< for a word all there are; for an integer those it has besides, or "auto"
   AxisValue (*get)(const CellOptions&);
   /// The value has passed `refusal`.

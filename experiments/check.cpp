@@ -104,8 +104,8 @@ class Checker {
     if (std::abs(now - before) <= allowed) return;
     Verdict verdict = Verdict::Changed;
     if (quantity.direction != Direction::MayNotChange && std::isfinite(now))
-      verdict = (now > before) == (quantity.direction == Direction::HigherIsBetter) ? Verdict::Improved
-                                                                                     : Verdict::Regressed;
+      verdict =
+          (now > before) == (quantity.direction == Direction::HigherIsBetter) ? Verdict::Improved : Verdict::Regressed;
     moved(name, text(before), text(now), text(allowed), verdict);
   }
 
@@ -134,11 +134,20 @@ class Checker {
 std::string escaped(const std::string& text) {
   std::string result;
   for (char c : text) switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += static_cast<unsigned char>(c) < 32 ? ' ' : c;
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += static_cast<unsigned char>(c) < 32 ? ' ' : c;
     }
   return result;
 }
@@ -147,10 +156,14 @@ std::string escaped(const std::string& text) {
 
 const char* verdict_name(Verdict verdict) {
   switch (verdict) {
-    case Verdict::Regressed: return "regressed";
-    case Verdict::Changed: return "changed";
-    case Verdict::Improved: return "improved";
-    case Verdict::Added: break;
+    case Verdict::Regressed:
+      return "regressed";
+    case Verdict::Changed:
+      return "changed";
+    case Verdict::Improved:
+      return "improved";
+    case Verdict::Added:
+      break;
   }
   return "added";
 }
@@ -173,11 +186,13 @@ std::string junit_report(const CheckResult& result, const std::string& recipe) {
         message += fmt::format("{}: {} -> {} (allowed {})\n", m.what, m.before, m.after, m.allowed);
     failures += !message.empty();
     cases += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", escaped(row.model), escaped(row.label));
-    cases += message.empty() ? "/>\n"
-                             : fmt::format("><failure message=\"regressed\">{}</failure></testcase>\n", escaped(message));
+    cases += message.empty()
+                 ? "/>\n"
+                 : fmt::format("><failure message=\"regressed\">{}</failure></testcase>\n", escaped(message));
   }
   return fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n{}</testsuite>\n",
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"{}\" tests=\"{}\" "
+      "failures=\"{}\">\n{}</testsuite>\n",
       escaped(recipe), result.rows.size(), failures, cases);
 }
 

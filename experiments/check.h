@@ -24,9 +24,9 @@ struct Movement {
 
 struct CheckResult {
   std::vector<Movement> moved;
-  std::vector<BaselineRow> rows;         ///< of the baseline, all of which were looked for
-  int compared = 0;                      ///< numbers and times
-  int without_bd = 0;                    ///< rows whose curve lies too near to its ceiling for a BD-rate
+  std::vector<BaselineRow> rows;  ///< of the baseline, all of which were looked for
+  int compared = 0;               ///< numbers and times
+  int without_bd = 0;             ///< rows whose curve lies too near to its ceiling for a BD-rate
   bool passed() const;
 };
 

@@ -16,9 +16,12 @@ namespace {
     case SQLITE_READONLY:
     case SQLITE_FULL:
     case SQLITE_IOERR:
-    case SQLITE_PERM: throw Error(Cause::CannotWrite, "the results database cannot be written: " + why);
-    case SQLITE_CANTOPEN: throw Error(Cause::CannotOpen, "the results database cannot be opened: " + why);
-    default: throw Error(Cause::Malformed, "the results database is damaged: " + why);
+    case SQLITE_PERM:
+      throw Error(Cause::CannotWrite, "the results database cannot be written: " + why);
+    case SQLITE_CANTOPEN:
+      throw Error(Cause::CannotOpen, "the results database cannot be opened: " + why);
+    default:
+      throw Error(Cause::Malformed, "the results database is damaged: " + why);
   }
 }
 

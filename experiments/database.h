@@ -42,8 +42,8 @@ class Statement {
   int bound_ = 0;
 };
 
-/// An SQLite database with a write-ahead log. Failures throw Error(CannotWrite) where the file system or a lock is in the
-/// way, Error(Malformed) otherwise.
+/// An SQLite database with a write-ahead log. Failures throw Error(CannotWrite) where the file system or a lock is in
+/// the way, Error(Malformed) otherwise.
 class Database {
  public:
   /// Opens the file; makes it where it is missing and `create` is set, else throws Error(CannotOpen).

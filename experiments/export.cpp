@@ -23,8 +23,9 @@ struct Format {
   const char* word;
   ExportFormat format;
 };
-constexpr Format kFormats[] = {
-    {"csv", ExportFormat::Csv}, {"compressai", ExportFormat::CompressAI}, {"codec-compare", ExportFormat::CodecCompare}};
+constexpr Format kFormats[] = {{"csv", ExportFormat::Csv},
+                               {"compressai", ExportFormat::CompressAI},
+                               {"codec-compare", ExportFormat::CodecCompare}};
 
 std::string file_name(const std::string& text, const std::string& ending) {
   std::string name;
@@ -45,9 +46,10 @@ Json compressai_json(const StoredCell& cell) {
     bpp.push_back(point.bits_per_vertex);
     psnr.push_back(point.psnr_db);
   }
-  return {{"name", cell.label},
-          {"description", cell.model + ": bpp is bits per input vertex, psnr is " + kPsnrDefinition + "; gsp " + version()},
-          {"results", {{"psnr", psnr}, {"bpp", bpp}}}};
+  return {
+      {"name", cell.label},
+      {"description", cell.model + ": bpp is bits per input vertex, psnr is " + kPsnrDefinition + "; gsp " + version()},
+      {"results", {{"psnr", psnr}, {"bpp", bpp}}}};
 }
 
 Json batch_json(const std::string& label, const std::vector<StoredCell>& cells) {
@@ -56,7 +58,8 @@ Json batch_json(const std::string& label, const std::vector<StoredCell>& cells) 
     const StageResult* encode = cell.stage(StageKind::Encode);
     for (const CurvePoint& point : cell.points())
       if (cell.label == label && std::isfinite(point.psnr_db))
-        rows.push_back({cell.model, point.bytes, point.psnr_db, encode ? Json(encode->seconds) : Json(0.0), point.bytes});
+        rows.push_back(
+            {cell.model, point.bytes, point.psnr_db, encode ? Json(encode->seconds) : Json(0.0), point.bytes});
   }
   return {{"constant_descriptions",
            {{{"name", "Name of this experiment"}},
@@ -104,10 +107,13 @@ std::vector<std::string> export_cells(const std::vector<StoredCell>& cells, cons
     return files.emplace_back(folder + '/' + file_name(name, ending));
   };
   switch (format) {
-    case ExportFormat::Csv: write_curve_csv(next(recipe, ".csv"), points_of(cells)); break;
+    case ExportFormat::Csv:
+      write_curve_csv(next(recipe, ".csv"), points_of(cells));
+      break;
     case ExportFormat::CompressAI:
       for (const StoredCell& cell : cells)
-        if (cell.status == CellStatus::Done) write_json(next(cell.model + ' ' + cell.label, ".json"), compressai_json(cell));
+        if (cell.status == CellStatus::Done)
+          write_json(next(cell.model + ' ' + cell.label, ".json"), compressai_json(cell));
       break;
     case ExportFormat::CodecCompare:
       for (const std::string& label : labels_of(cells)) write_json(next(label, ".json"), batch_json(label, cells));

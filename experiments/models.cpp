@@ -51,9 +51,10 @@ const Shape& shape_of(const std::string& source) {
   for (const Shape& shape : kShapes)
     if (name == shape.name) return shape;
   const std::string nearest = nearest_word(name, shape_names());
-  throw Error(Cause::BadOption, fmt::format("no shape is called {}; {}", name,
-                                            nearest.empty() ? fmt::format("there are {}", fmt::join(shape_names(), ", "))
-                                                            : "did you mean " + nearest + "?"));
+  throw Error(Cause::BadOption,
+              fmt::format("no shape is called {}; {}", name,
+                          nearest.empty() ? fmt::format("there are {}", fmt::join(shape_names(), ", "))
+                                          : "did you mean " + nearest + "?"));
 }
 
 }  // namespace

@@ -20,8 +20,9 @@ std::vector<std::string> surface_files(const std::vector<std::string>& paths);
 /// Surfaces with their names, in order.
 std::vector<ModelSource> named_models(const std::vector<std::string>& sources);
 
-/// What a pattern of a recipe names: "shape:NAME", a file, a folder, or files by *, ? and [] in name order. Relative ones
-/// start from the working folder. Throws Error(CannotOpen) where nothing matches, Error(BadOption) for an unknown shape.
+/// What a pattern of a recipe names: "shape:NAME", a file, a folder, or files by *, ? and [] in name order. Relative
+/// ones start from the working folder. Throws Error(CannotOpen) where nothing matches, Error(BadOption) for an unknown
+/// shape.
 std::vector<std::string> matching_models(const std::string& pattern);
 
 /// Names after "shape:".

@@ -77,8 +77,8 @@ std::string surface_path(const std::string& key) { return "artefacts/" + key.sub
 
 std::string stage_key(StageKind kind, const CellOptions& options, const std::string& input) {
   std::string text = "gsp stage 1";
-  for (const std::string& part : {std::string(stage_name(kind)), std::string(algorithm_version(kind)),
-                                  options_json(options, kind), input})
+  for (const std::string& part :
+       {std::string(stage_name(kind)), std::string(algorithm_version(kind)), options_json(options, kind), input})
     text += '\n' + part;
   return content_hash(text);
 }

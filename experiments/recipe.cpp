@@ -44,7 +44,8 @@ class AxisReader {
   void add(AxisValue value, long long line) {
     if (axis_.kind == Axis::Kind::Number && std::holds_alternative<std::int64_t>(value))
       value = static_cast<double>(std::get<std::int64_t>(value));
-    if (const std::string why = axis_.refusal(value); !why.empty()) refuse(fmt::format("{}: {}", axis_.name, why), line);
+    if (const std::string why = axis_.refusal(value); !why.empty())
+      refuse(fmt::format("{}: {}", axis_.name, why), line);
     if (seen_.insert(value).second) values.push_back(std::move(value));
     if (values.size() > kMostCells) refuse(fmt::format("{} has more than {} values", axis_.name, kMostCells), line);
   }
@@ -146,7 +147,8 @@ std::vector<std::size_t> budgets(const Layers& layers) {
   const toml::node* node = layers.get("budgets");
   if (!node) return sizes;
   const toml::array* list = node->as_array();
-  if (!list || list->empty()) refuse("budgets is no list of bytes; leave it out for 256, 512, 1024, ...", line_of(*node));
+  if (!list || list->empty())
+    refuse("budgets is no list of bytes; leave it out for 256, 512, 1024, ...", line_of(*node));
   for (const toml::node& element : *list) {
     if (!element.is_integer() || element.ref<std::int64_t>() < 1)
       refuse("a budget is no positive number of bytes", line_of(element));

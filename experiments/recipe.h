@@ -32,8 +32,8 @@ struct Recipe {
 ///     method = ["draco"]
 ///
 /// The cells are all combinations. `models` replaces the patterns where it is not empty.
-/// Throws Error: CannotOpen; Malformed where it is no TOML; BadOption with the line for unknown keys, impossible values,
-/// an empty list, more than 100000 cells, or a pattern that matches nothing.
+/// Throws Error: CannotOpen; Malformed where it is no TOML; BadOption with the line for unknown keys, impossible
+/// values, an empty list, more than 100000 cells, or a pattern that matches nothing.
 Recipe read_recipe(const std::string& path, const std::vector<std::string>& models = {});
 
 }  // namespace gsp

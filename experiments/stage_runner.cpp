@@ -100,8 +100,7 @@ class Runner {
     const Clock clock;
     std::vector<StageResult> results(methods.size());
     const bool failed = !attempt(results.front(), [&] {
-      const std::vector<ParameterizeResult> maps =
-          parameterize_all(surface_, methods, batch.options, progress_);
+      const std::vector<ParameterizeResult> maps = parameterize_all(surface_, methods, batch.options, progress_);
       for (std::size_t i = 0; i < maps.size(); ++i) describe_map(maps[i], results[i]);
     });
     // Together they fail together, so each is tried alone to learn which one it is.
@@ -109,13 +108,14 @@ class Runner {
       for (const PlannedCell* cell : batch.cells) make_maps({batch.options, {cell}});
       return;
     }
-    for (std::size_t i = 0; i < results.size(); ++i) finish(*batch.cells[i], StageKind::Parameterize, results[i], clock);
+    for (std::size_t i = 0; i < results.size(); ++i)
+      finish(*batch.cells[i], StageKind::Parameterize, results[i], clock);
   }
 
   void describe_map(const ParameterizeResult& map, StageResult& result) {
     result.numbers = map_numbers(map, surface_.vertex_count());
-    result.artefacts["map"] = keep_artefact(
-        store_, ".param.ply", [&](const std::string& path) { write_parameterization(path, map.map); });
+    result.artefacts["map"] =
+        keep_artefact(store_, ".param.ply", [&](const std::string& path) { write_parameterization(path, map.map); });
     result.artefacts["omega"] =
         keep_artefact(store_, ".csv", [&](const std::string& path) { write_omega_csv(path, map.omega); });
   }
@@ -150,8 +150,8 @@ class Runner {
                       {"remesh_backward", remesh.distance.rms_backward},
                       {"remesh_hausdorff", remesh.distance.hausdorff},
                       {"ceiling_db", remesh.distance.psnr_db}};
-    result.artefacts["remesh"] = keep_artefact(
-        store_, ".sr.ply", [&](const std::string& path) { write_semiregular(path, remesh.mesh); });
+    result.artefacts["remesh"] =
+        keep_artefact(store_, ".sr.ply", [&](const std::string& path) { write_semiregular(path, remesh.mesh); });
   }
 
   void encode_stage(const PlannedCell& cell, StageResult& result) {

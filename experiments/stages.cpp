@@ -38,8 +38,7 @@ std::vector<CurvePoint> decoded_curve(const Bytes& stream, const std::vector<std
 
 std::vector<CurvePoint> anchor_curve(const std::string& method, const Meter& meter, std::size_t samples,
                                      Progress& progress) {
-  return method == "draco" ? draco_curve(meter, samples, progress)
-                           : decimate_draco_curve(meter, samples / 2, progress);
+  return method == "draco" ? draco_curve(meter, samples, progress) : decimate_draco_curve(meter, samples / 2, progress);
 }
 
 std::vector<std::size_t> byte_budgets(const std::vector<std::size_t>& wanted, std::size_t header, std::size_t whole) {

@@ -66,9 +66,12 @@ CurvePoint read_point(const Statement& row) {
 
 const char* status_name(CellStatus status) {
   switch (status) {
-    case CellStatus::Waiting: return "waiting";
-    case CellStatus::Done: return "done";
-    case CellStatus::Failed: break;
+    case CellStatus::Waiting:
+      return "waiting";
+    case CellStatus::Done:
+      return "done";
+    case CellStatus::Failed:
+      break;
   }
   return "failed";
 }
@@ -156,8 +159,8 @@ struct Store::Impl {
       throw Error(Cause::Malformed, path + " has schema " + std::to_string(found) + ", this gsp reads schema " +
                                         std::to_string(kSchemaVersion) + "; sweep into a new folder");
     }
-    // After a crash of the program everything committed is there; after one of the machine the last results may be gone,
-    // and are computed again.
+    // After a crash of the program everything committed is there; after one of the machine the last results may be
+    // gone, and are computed again.
     database.execute("PRAGMA synchronous=NORMAL");
   }
 
@@ -238,7 +241,8 @@ Plan Store::plan(const std::string& recipe) const {
                            static_cast<int>(model->integer(4)), static_cast<int>(model->integer(5)), model->text(6),
                            model->text(7)});
   const auto row = impl_->database.prepare(
-      "SELECT model, label, options, parameterize, remesh, encode, measure FROM cell WHERE recipe = ? ORDER BY position");
+      "SELECT model, label, options, parameterize, remesh, encode, measure FROM cell WHERE recipe = ? ORDER BY "
+      "position");
   row->bind(plan.recipe);
   while (row->step()) {
     PlannedCell& cell = plan.cells.emplace_back();
@@ -265,7 +269,8 @@ std::vector<StoredCell> Store::cells(const std::string& recipe) const {
 std::map<std::string, StageResult> Store::results() const {
   std::map<std::string, StageResult> results;
   const auto stage = impl_->database.prepare(
-      "SELECT key, kind, input, options, version, cause, failure, numbers, seconds, cpu_seconds, reference_seconds FROM "
+      "SELECT key, kind, input, options, version, cause, failure, numbers, seconds, cpu_seconds, reference_seconds "
+      "FROM "
       "stage");
   while (stage->step()) {
     StageResult& r = results[stage->text(0)];
@@ -286,7 +291,8 @@ std::map<std::string, StageResult> Store::results() const {
   const auto artefact = impl_->database.prepare("SELECT stage, role, path FROM artefact");
   while (artefact->step()) results[artefact->text(0)].artefacts[artefact->text(1)] = artefact->text(2);
   const auto point = impl_->database.prepare(
-      "SELECT stage, coder, bytes, bits_per_vertex, faces, rms_forward, rms_backward, rms, hausdorff, psnr_db, samples, "
+      "SELECT stage, coder, bytes, bits_per_vertex, faces, rms_forward, rms_backward, rms, hausdorff, psnr_db, "
+      "samples, "
       "standard_error_db, seed FROM point ORDER BY stage, position");
   while (point->step()) results[point->text(0)].points.push_back(read_point(*point));
   return results;
@@ -305,9 +311,8 @@ void Store::replace_plan(const Plan& plan) {
   const auto cell = impl_->database.prepare("INSERT INTO cell VALUES(?,?,?,?,?,?,?,?,?)");
   position = 0;
   for (const PlannedCell& c : plan.cells)
-    cell->run(plan.recipe, position++, c.model, c.label, options_json(c.options),
-              key_of(c, StageKind::Parameterize), key_of(c, StageKind::Remesh), key_of(c, StageKind::Encode),
-              key_of(c, StageKind::Measure));
+    cell->run(plan.recipe, position++, c.model, c.label, options_json(c.options), key_of(c, StageKind::Parameterize),
+              key_of(c, StageKind::Remesh), key_of(c, StageKind::Encode), key_of(c, StageKind::Measure));
   transaction.commit();
 }
 

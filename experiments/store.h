@@ -13,7 +13,7 @@ namespace gsp {
 
 /// What one stage made: a row of the store, and the JSON file that a worker hands over.
 struct StageResult {
-  std::string key;      ///< hash of the stage's name, its algorithm's version, its options and its input's key
+  std::string key;  ///< hash of the stage's name, its algorithm's version, its options and its input's key
   StageKind kind = StageKind::Parameterize;
   std::string input;    ///< key of the stage before it; of the surface for the first
   std::string options;  ///< `options_json` of the stage
@@ -29,12 +29,13 @@ struct StageResult {
   /// remesh_hausdorff, ceiling_db (-20 log10 of remesh_error).
   /// Encode: stream_bytes, header_bytes, connectivity_bytes.
   std::map<std::string, double> numbers;
-  /// Files by role, relative to the store's folder: "map" (*.param.ply), "omega" (*.csv, figure 5d), "remesh" (*.sr.ply),
-  /// "stream" (*.pgc).
+  /// Files by role, relative to the store's folder: "map" (*.param.ply), "omega" (*.csv, figure 5d), "remesh"
+  /// (*.sr.ply), "stream" (*.pgc).
   std::map<std::string, std::string> artefacts;
-  std::vector<CurvePoint> points;  ///< of Measure, by ascending bytes; only what a `Meter` fills in, and the coder of anchors
-  double seconds = 0.0;            ///< wall
-  double cpu_seconds = 0.0;        ///< of all threads
+  std::vector<CurvePoint>
+      points;                ///< of Measure, by ascending bytes; only what a `Meter` fills in, and the coder of anchors
+  double seconds = 0.0;      ///< wall
+  double cpu_seconds = 0.0;  ///< of all threads
   double reference_seconds = 0.0;  ///< CPU time of the reference task in the same process (reference_task.h)
 
   bool failed() const { return !cause.empty(); }
@@ -70,13 +71,14 @@ const char* status_name(CellStatus status);
 
 /// One cell of a sweep with everything that is known about it.
 struct StoredCell {
-  int position = 0;    ///< in the recipe's order, from 0
-  std::string model;   ///< name of its StoredModel
-  std::string label;   ///< the method, and the values of those options that vary within it: "gsp gamma=0 mu=1"
+  int position = 0;   ///< in the recipe's order, from 0
+  std::string model;  ///< name of its StoredModel
+  std::string label;  ///< the method, and the values of those options that vary within it: "gsp gamma=0 mu=1"
   CellOptions options;
   CellStatus status = CellStatus::Waiting;
   std::string cause, failure;  ///< of the first stage that failed
-  std::vector<StageResult> stages;  ///< those that have run, in the order of StageKind; artefacts with the store's folder
+  std::vector<StageResult>
+      stages;  ///< those that have run, in the order of StageKind; artefacts with the store's folder
 
   /// The stage, or null where it has not run or the method has none.
   const StageResult* stage(StageKind kind) const;

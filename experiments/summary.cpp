@@ -94,7 +94,8 @@ BdCurve bd_curve(const std::vector<CurvePoint>& points) {
 std::vector<CurveSeries> by_method(const std::vector<CurvePoint>& points) {
   std::vector<CurveSeries> curves;
   for (const CurvePoint& point : points) {
-    auto curve = std::find_if(curves.begin(), curves.end(), [&](const CurveSeries& c) { return c.name == point.method; });
+    auto curve =
+        std::find_if(curves.begin(), curves.end(), [&](const CurveSeries& c) { return c.name == point.method; });
     if (curve == curves.end()) curve = curves.insert(curves.end(), CurveSeries{point.method, {}});
     curve->points.push_back(point);
   }
@@ -158,7 +159,8 @@ void print_summaries(std::ostream& out, const std::vector<CurveSummary>& summari
     const MeanGain mean = mean_gain_over(summaries, other);
     if (!mean.gain_db && !mean.bd_rate) continue;
     fmt::print(out, "  {} over {}:", first, other);
-    if (mean.gain_db) fmt::print(out, " {:+.2f} dB ({} of {} models)", *mean.gain_db, mean.gain_models, summaries.size());
+    if (mean.gain_db)
+      fmt::print(out, " {:+.2f} dB ({} of {} models)", *mean.gain_db, mean.gain_models, summaries.size());
     if (mean.bd_rate)
       fmt::print(out, "{} BD-rate {:+.1f}% ({} of {} models)", mean.gain_db ? "," : "", *mean.bd_rate, mean.bd_models,
                  summaries.size());
@@ -172,8 +174,10 @@ void print_summaries(std::ostream& out, const std::vector<CurveSummary>& summari
       "of the two curves is within {:.0f} dB of its own ceiling. ratio: the row's bytes over those of {} at {:.0f} "
       "dB.\n"
       "Curves are linear in log-bytes between their points; decimate-draco is the upper envelope of its points.\n"
-      "BD-rate, BD-PSNR: mean bytes of {} at equal PSNR less the other's, and mean PSNR at equal bytes, by PCHIP on the\n"
-      "logarithm of bytes, where both curves are known and under their ceilings less {:.0f} dB; shared: of the range that\n"
+      "BD-rate, BD-PSNR: mean bytes of {} at equal PSNR less the other's, and mean PSNR at equal bytes, by PCHIP on "
+      "the\n"
+      "logarithm of bytes, where both curves are known and under their ceilings less {:.0f} dB; shared: of the range "
+      "that\n"
       "either covers.\n",
       first, kCompareFromBytes, kCeilingMarginDb, first, kRatioLevelDb, first, kCeilingMarginDb);
 }

@@ -35,7 +35,7 @@ struct MethodSummary {
   /// empty for the first itself, and with the reason in `no_bd` where the curves cannot be compared.
   std::optional<BdResult> bd;
   std::string no_bd;
-  std::optional<double> bytes_ratio;            ///< this method's bytes over the first's, at kRatioLevelDb
+  std::optional<double> bytes_ratio;  ///< this method's bytes over the first's, at kRatioLevelDb
 };
 
 struct CurveSummary {

@@ -58,8 +58,8 @@ SweepResult sweep(const Recipe& recipe, const std::string& folder, const SweepOp
   empty_inbox(store);
   if (!slurm.active()) forget_failures(store, plan, options.retry_failed);
   SweepResult result;
-  result.stages_run = options.slurm ? run_on_slurm(plan, store, options, progress)
-                                    : run_in_workers(plan, store, options, progress);
+  result.stages_run =
+      options.slurm ? run_on_slurm(plan, store, options, progress) : run_in_workers(plan, store, options, progress);
   result.cells = store.cells(recipe.name);
   write_curve_csv(folder + "/curve.csv", points_of(result.cells));
   return result;

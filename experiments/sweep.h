@@ -11,7 +11,8 @@
 namespace gsp {
 
 struct SweepOptions {
-  /// Worker processes at most; 0: as many as there are cores. Fewer run where memory would not hold their surfaces.
+  /// Worker processes at most; 0: as many as there are threads (mesh/parallel.h). Fewer run where memory would not hold
+  /// their surfaces.
   int jobs = 0;
   bool fail_fast = false;     ///< stop at the first cell that fails
   bool retry_failed = false;  ///< forget failures; those from a crash or lack of memory are always forgotten
@@ -25,10 +26,10 @@ struct SweepResult {
   bool failed() const;            ///< a cell failed
 };
 
-/// Runs all cells of a recipe that have not run, in worker processes, and writes FOLDER/curve.csv. Whatever ends it, the
-/// next call goes on: at most the stages in flight are lost, and the store ends up the same but for times. A cell that
-/// fails, even by crashing its worker, is a result with its cause, and the others go on.
-/// Throws Error: Cancelled; CannotWrite, also where another sweep or its Slurm job is at work on the folder; ToolMissing.
+/// Runs all cells of a recipe that have not run, in worker processes, and writes FOLDER/curve.csv. Whatever ends it,
+/// the next call goes on: at most the stages in flight are lost, and the store ends up the same but for times. A cell
+/// that fails, even by crashing its worker, is a result with its cause, and the others go on. Throws Error: Cancelled;
+/// CannotWrite, also where another sweep or its Slurm job is at work on the folder; ToolMissing.
 SweepResult sweep(const Recipe& recipe, const std::string& folder, const SweepOptions& options, Progress& progress);
 
 /// The recipe's cells as they stand in the folder (which need not exist), without changing anything.

@@ -20,8 +20,8 @@ double number(const Json& value) {
 }
 
 Json point_json(const CurvePoint& p) {
-  return {p.coder,         p.bytes, p.bits_per_vertex, p.faces,   p.rms_forward,         p.rms_backward, p.rms,
-          p.hausdorff,     finite(p.psnr_db), p.samples, p.standard_error_db, p.seed};
+  return {p.coder, p.bytes,     p.bits_per_vertex, p.faces,   p.rms_forward,       p.rms_backward,
+          p.rms,   p.hausdorff, finite(p.psnr_db), p.samples, p.standard_error_db, p.seed};
 }
 
 CurvePoint point_of(const Json& j) {
@@ -114,8 +114,7 @@ void write_task(const std::string& path, const Task& task) {
   Json cells = Json::array(), done = Json::array();
   for (const PlannedCell& cell : task.cells) cells.push_back(cell_json(cell));
   for (const auto& [key, result] : task.done) done.push_back(result_json(result));
-  write_json(path,
-             {{"surface_key", task.surface_key}, {"surface", task.surface}, {"cells", cells}, {"done", done}});
+  write_json(path, {{"surface_key", task.surface_key}, {"surface", task.surface}, {"cells", cells}, {"done", done}});
 }
 
 Task read_task(const std::string& path) {

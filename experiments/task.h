@@ -8,8 +8,9 @@
 
 namespace gsp {
 
-/// What one worker process does: cells on one surface that share as much as they can, such as all codings of one map. It
-/// travels as a JSON file, and so do the results, so that a worker never opens the database: that is the sweep's alone.
+/// What one worker process does: cells on one surface that share as much as they can, such as all codings of one map.
+/// It travels as a JSON file, and so do the results, so that a worker never opens the database: that is the sweep's
+/// alone.
 struct Task {
   std::string surface_key;
   std::string surface;  ///< PLY, relative to the store's folder

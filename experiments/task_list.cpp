@@ -21,8 +21,8 @@ std::string group_of(const PlannedCell& cell, const std::string& surface,
   const CellOptions& options = cell.options;
   if (is_anchor(options.method)) return surface + ' ' + options_json(options);
   const ParameterizeOptions& p = options.parameterize;
-  const std::string base = surface + ' ' + std::to_string(p.gamma) + ' ' + std::to_string(p.mu) + ' ' +
-                           std::to_string(p.base_vertices);
+  const std::string base =
+      surface + ' ' + std::to_string(p.gamma) + ' ' + std::to_string(p.mu) + ' ' + std::to_string(p.base_vertices);
   const std::string own = base + ' ' + options_json(options, StageKind::Parameterize);
   if (options.method != method_name(Method::Gsp)) {
     const auto found = first_on_base.find(base);
@@ -70,7 +70,7 @@ std::vector<Task> outstanding_tasks(const Plan& plan, const std::map<std::string
 }
 
 double task_memory_bytes(const Plan& plan, const Task& task) {
-  constexpr double kProgram = 100e6, kPerFace = 9000.0;
+  constexpr double kProgram = 100e6, kPerFace = 3000.0;
   return kProgram + kPerFace * faces_of(plan, task);
 }
 
@@ -79,7 +79,8 @@ double task_weight(const Plan& plan, const Task& task) {
   constexpr double kMap = 10.0, kCell = 1.0;
   std::set<std::string> maps;
   for (const PlannedCell& cell : task.cells)
-    if (const auto key = cell.keys.find(StageKind::Parameterize); key != cell.keys.end() && !task.done.count(key->second))
+    if (const auto key = cell.keys.find(StageKind::Parameterize);
+        key != cell.keys.end() && !task.done.count(key->second))
       maps.insert(key->second);
   return faces_of(plan, task) *
          (kMap * static_cast<double>(maps.size()) + kCell * static_cast<double>(task.cells.size()));

@@ -24,7 +24,8 @@ class Worker {
 
   /// Where its lines come from, for poll().
   int descriptor() const { return output_; }
-  /// Takes in what has been written; the complete lines of it, without line breaks. Ends where it has closed its output.
+  /// Takes in what has been written; the complete lines of it, without line breaks. Ends where it has closed its
+  /// output.
   std::vector<std::string> read_lines();
   bool ended() const { return closed_; }
   /// Waits for its end.

@@ -12,12 +12,12 @@
 #include <fstream>
 #include <memory>
 #include <set>
-#include <thread>
 
 #include "experiments/inbox.h"
 #include "experiments/task_list.h"
 #include "experiments/version.h"
 #include "experiments/worker.h"
+#include "mesh/parallel.h"
 
 namespace gsp {
 
@@ -43,7 +43,7 @@ struct Running {
   double memory = 0.0;
   std::size_t stages = 0;            ///< that it had to run
   std::set<std::string> unfinished;  ///< keys of those that it still has to
-  std::string stage_key;  ///< the one in flight
+  std::string stage_key;             ///< the one in flight
   std::string doing;
   std::unique_ptr<Worker> worker;
 };
@@ -52,13 +52,13 @@ class Pool {
  public:
   Pool(const std::string& folder, const Plan& plan, Store& store, const SweepOptions& options, Progress& progress)
       : folder_(folder), plan_(plan), store_(store), options_(options), progress_(progress) {
-    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-    jobs_ = options.jobs > 0 ? options.jobs : static_cast<int>(cores);
+    const int cores = thread_count();
+    jobs_ = options.jobs > 0 ? options.jobs : cores;
     waiting_ = outstanding_tasks(plan, store.results());
     for (const Task& task : waiting_) total_ += task_weight(plan, task);
     // The cores are shared out evenly; results do not depend on the number of threads.
     const int side_by_side = std::max(1, std::min(jobs_, static_cast<int>(waiting_.size())));
-    threads_ = std::max(1, static_cast<int>(cores) / side_by_side);
+    threads_ = std::max(1, cores / side_by_side);
     fs::create_directories(folder + "/tasks");
   }
 
@@ -121,7 +121,6 @@ class Pool {
     const std::string word = line.substr(0, space), rest = space == std::string::npos ? "" : line.substr(space + 1);
     if (word == "begin") running.stage_key = rest;
     if (word == "doing") running.doing = rest;
-    if (word == "note") progress_.note(running.task.cells.front().model + ": " + rest);
   }
 
   void settle(std::size_t index) {
@@ -130,8 +129,7 @@ class Pool {
     running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(index));
     const WorkerEnd end = ended.worker->wait();
     if (end.signal == 0 && end.status == 0) return;
-    if (end.signal == 0)
-      throw Error(Cause::CannotWrite, fmt::format("a worker gave up with status {}", end.status));
+    if (end.signal == 0) throw Error(Cause::CannotWrite, fmt::format("a worker gave up with status {}", end.status));
     record_crash(ended, end.signal);
     requeue(ended.task);
   }

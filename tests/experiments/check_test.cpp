@@ -15,10 +15,15 @@ namespace {
 Baseline sample_run() {
   Baseline run = baseline_of("smoke", {});
   for (const char* label : {"gsp", "maps"}) {
-    BaselineRow row{.model = "torus", .label = label, .options = {{"gamma", "2"}}, .cause = {}, .numbers = {}, .times = {},
-                    .curve = {}, .ceiling_db = 95.0};
-    for (int octave = 0; octave < 9; ++octave)
-      row.curve.push_back({256.0 * std::exp2(octave), 40.0 + 5.0 * octave});
+    BaselineRow row{.model = "torus",
+                    .label = label,
+                    .options = {{"gamma", "2"}},
+                    .cause = {},
+                    .numbers = {},
+                    .times = {},
+                    .curve = {},
+                    .ceiling_db = 95.0};
+    for (int octave = 0; octave < 9; ++octave) row.curve.push_back({256.0 * std::exp2(octave), 40.0 + 5.0 * octave});
     row.numbers = {{"flipped_faces", 0}, {"level", 4}, {"psnr_db at 512 bytes", 45.0}, {"remesh_error", 1e-4}};
     row.times = {{"time parameterize", 100.0}};
     run.rows.push_back(row);
@@ -87,9 +92,8 @@ TEST_CASE("missing rows, new failures and numbers that are no more fail the chec
   CHECK_FALSE(check(sample_run(), run, {}).passed());
   CHECK_FALSE(after([](BaselineRow& row) { row.cause = "invalid-map"; }).passed());
   CHECK_FALSE(after([](BaselineRow& row) { row.numbers.erase("level"); }).passed());
-  CHECK_FALSE(after([](BaselineRow& row) {
-                row.numbers["remesh_error"] = std::numeric_limits<double>::quiet_NaN();
-              }).passed());
+  CHECK_FALSE(
+      after([](BaselineRow& row) { row.numbers["remesh_error"] = std::numeric_limits<double>::quiet_NaN(); }).passed());
 }
 
 TEST_CASE("a curve that needs more bytes is a BD-rate regression by just that share") {

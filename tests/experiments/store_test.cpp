@@ -23,8 +23,14 @@ StageResult result_of(StageKind kind, const std::string& key) {
 Plan sample_plan(const std::string& recipe) {
   Plan plan;
   plan.recipe = recipe;
-  plan.models.push_back({.name = "torus", .source = "shape:torus", .surface_key = "s", .path = "artefacts/s.ply",
-                         .vertices = 100, .faces = 200, .cause = {}, .failure = {}});
+  plan.models.push_back({.name = "torus",
+                         .source = "shape:torus",
+                         .surface_key = "s",
+                         .path = "artefacts/s.ply",
+                         .vertices = 100,
+                         .faces = 200,
+                         .cause = {},
+                         .failure = {}});
   for (Wavelet wavelet : {Wavelet::Loop, Wavelet::Butterfly}) {
     PlannedCell cell{.model = "torus", .label = wavelet_name(wavelet), .options = {}, .keys = {}};
     cell.options.encode.wavelet = wavelet;

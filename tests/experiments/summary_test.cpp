@@ -81,6 +81,7 @@ TEST_CASE("the table names failures, means and the definition of its numbers") {
   print_summaries(out, {summarize("model", by_method(points)), failed});
   const std::string text = out.str();
   for (const char* part : {"FAILED (non-manifold-edge): an edge has three faces (edge 7)", "+3.00 dB",
-                           "gsp over maps-smoothed: +3.00 dB (1 of 2 models), BD-rate -34.0% (1 of 2 models)", "PSNR = 20 log10", "ceiling:"})
+                           "gsp over maps-smoothed: +3.00 dB (1 of 2 models), BD-rate -34.0% (1 of 2 models)",
+                           "PSNR = 20 log10", "ceiling:"})
     CHECK(text.find(part) != std::string::npos);
 }

@@ -39,7 +39,8 @@ class Study {
 
   std::string recipe_file(const std::string& rest, const std::string& models = "*.ply") const {
     std::ofstream(file("study.toml")) << "models = [\"" << file(models) << "\"]\nbudgets = [128, 256, 512]\n"
-                                      << "samples = 2000\nbase_vertices = 12\n" << rest;
+                                      << "samples = 2000\nbase_vertices = 12\n"
+                                      << rest;
     return file("study.toml");
   }
 
@@ -111,10 +112,11 @@ TEST_CASE("a sweep runs every stage once, then finds everything done") {
 TEST_CASE("a surface or a stage that fails is a row with its cause, and the others go on") {
   const Study study;
   std::ofstream(study.file("broken.ply")) << "ply\nformat ascii 1.0\nelement vertex";
-  std::ofstream(study.file("fan.ply")) << "ply\nformat ascii 1.0\nelement vertex 5\nproperty double x\nproperty double "
-                                          "y\nproperty double z\nelement face 3\nproperty list uchar int "
-                                          "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 "
-                                          "0 3\n3 0 1 4\n";
+  std::ofstream(study.file("fan.ply"))
+      << "ply\nformat ascii 1.0\nelement vertex 5\nproperty double x\nproperty double "
+         "y\nproperty double z\nelement face 3\nproperty list uchar int "
+         "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 "
+         "0 3\n3 0 1 4\n";
   const SweepResult result = study.run("method = [\"gsp\", \"maps\"]\n");
   CHECK(result.failed());
   REQUIRE(result.cells.size() == 8);
@@ -132,7 +134,8 @@ TEST_CASE("a stage that brings its worker down is a failure of its cell alone, a
   const Study study;
   // Crashes at the first map of the torus, once; otherwise it is gsp.
   const std::string program = study.file("crashing-gsp");
-  std::ofstream(program) << "#!/bin/sh\nif [ ! -e " << study.file("crashed") << " ]; then touch " << study.file("crashed")
+  std::ofstream(program) << "#!/bin/sh\nif [ ! -e " << study.file("crashed") << " ]; then touch "
+                         << study.file("crashed")
                          << "\n  key=$(grep -o '\"remesh\": \"[0-9a-f]*\"' \"$5\" | head -1 | cut -d'\"' -f4)\n"
                          << "  echo begin $key; kill -SEGV $$\nfi\nexec " << GSP_PROGRAM << " \"$@\"\n";
   ::chmod(program.c_str(), 0755);
