@@ -7,7 +7,7 @@
 #include <ostream>
 
 #include "cli/options.h"
-#include "cli/report.h"
+#include "cli/print.h"
 #include "experiments/summary.h"
 #include "mesh/atomic_file.h"
 

@@ -5,7 +5,7 @@
 #include <ostream>
 
 #include "cli/options.h"
-#include "cli/report.h"
+#include "cli/print.h"
 #include "cli/summary_report.h"
 #include "experiments/cell_options.h"
 #include "experiments/curve_job.h"

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/options.h"
-#include "cli/report.h"
+#include "cli/print.h"
 #include "mesh/io.h"
 #include "metrics/hausdorff.h"
 #include "metrics/metro.h"

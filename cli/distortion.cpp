@@ -6,7 +6,7 @@
 
 #include "cli/check_report.h"
 #include "cli/options.h"
-#include "cli/report.h"
+#include "cli/print.h"
 #include "experiments/figures/map_measures.h"
 #include "mesh/atomic_file.h"
 #include "param/param_file.h"

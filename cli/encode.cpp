@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/options.h"
-#include "cli/report.h"
+#include "cli/print.h"
 #include "coder/codec.h"
 #include "experiments/targets.h"
 #include "mesh/atomic_file.h"

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/options.h"
-#include "cli/report.h"
+#include "cli/print.h"
 #include "mesh/io.h"
 #include "mesh/topology.h"
 

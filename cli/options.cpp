@@ -112,6 +112,10 @@ void Command::optional_file(const std::string& name, std::string& value, const s
   optional_text(name, "FILE", value, text + " [none]");
 }
 
+void Command::text(const std::string& name, std::string& value, const std::string& text, const std::string& meaning) {
+  app_->add_option(name, value, fmt::format("{} [{}]", text, meaning))->option_text("TEXT");
+}
+
 void Command::flag(const std::string& name, bool& value, const std::string& text) { app_->add_flag(name, value, text); }
 
 void Command::integer(const std::string& name, int& value, int low, int high, const std::string& text) {

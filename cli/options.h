@@ -33,6 +33,8 @@ class Command {
   void texts(const std::string& name, std::vector<std::string>& values, const std::string& place,
              const std::string& text);
   void optional_file(const std::string& name, std::string& value, const std::string& text);
+  /// Any text; where none is given it is as `meaning` says.
+  void text(const std::string& name, std::string& value, const std::string& text, const std::string& meaning);
   void flag(const std::string& name, bool& value, const std::string& text);
   void integer(const std::string& name, int& value, int low, int high, const std::string& text);
   void size(const std::string& name, std::size_t& value, std::size_t low, std::size_t high, const std::string& text);

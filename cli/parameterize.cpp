@@ -5,7 +5,7 @@
 
 #include "cli/check_report.h"
 #include "cli/options.h"
-#include "cli/report.h"
+#include "cli/print.h"
 #include "experiments/cell_options.h"
 #include "mesh/io.h"
 #include "param/param_file.h"

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/options.h"
-#include "cli/report.h"
+#include "cli/print.h"
 #include "experiments/figures/map_measures.h"
 
 namespace gsp::cli {

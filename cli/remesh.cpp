@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/options.h"
-#include "cli/report.h"
+#include "cli/print.h"
 #include "experiments/targets.h"
 #include "param/param_file.h"
 #include "remesh/semiregular_file.h"

@@ -1,80 +1,48 @@
-#include "cli/report.h"
+#include "experiments/report/report.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
-#include <ostream>
 
-#include "experiments/version.h"
+#include "cli/options.h"
+#include "cli/print.h"
 
 namespace gsp::cli {
 
 namespace {
 
-constexpr std::size_t kItemsShown = 10;
+struct Options {
+  std::string run, output;
+  bool no_figures = false;
+  ReportOptions report;
+};
 
-std::string title(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
-std::string value_text(const Json& value) {
-  if (value.is_null()) return "-";
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
-  return value.dump();
-}
-
-// A list element on one line: "vertices 8, faces 12", or the value alone.
-std::string item_text(const Json& item) {
-  if (!item.is_object()) return value_text(item);
-  std::string text;
-  for (const auto& [name, value] : item.items())
-    text += (text.empty() ? "" : ", ") + title(name) + ' ' + value_text(value);
-  return text;
-}
-
-void print_lines(std::ostream& out, const Json& report, const std::string& indent) {
-  std::size_t width = 0;
-  for (const auto& [name, value] : report.items())
-    if (value.is_primitive()) width = std::max(width, name.size());
-  for (const auto& [name, value] : report.items()) {
-    out << indent << title(name);
-    if (value.is_object()) {
-      out << '\n';
-      print_lines(out, value, indent + "  ");
-    } else if (value.is_array()) {
-      out << '\n';
-      for (std::size_t i = 0; i < std::min(value.size(), kItemsShown); ++i)
-        out << indent << "  " << item_text(value[i]) << '\n';
-      if (value.size() > kItemsShown) out << indent << "  ... and " << value.size() - kItemsShown << " more\n";
-    } else {
-      out << std::string(width - name.size() + 2, ' ') << value_text(value) << '\n';
-    }
+int run_report(Options& options, Context& context) {
+  Progress progress = context.console.progress();
+  options.report.figures = !options.no_figures;
+  const ReportResult result = make_report(options.run, options.output, options.report, progress);
+  if (context.json) {
+    print_report(
+        context,
+        {{"reference", result.findings.reference}, {"sentences", result.findings.sentences}, {"files", result.files}});
+    return 0;
   }
+  for (const std::string& sentence : result.findings.sentences) context.out << sentence << '\n';
+  context.out << result.files.front() << '\n';
+  return 0;
 }
 
 }  // namespace
 
-void print_text(std::ostream& out, const Json& report) { print_lines(out, report, ""); }
-
-void print_report(const Context& context, const Json& report) {
-  if (!context.json) return print_text(context.out, report);
-  Json whole = {{"program", "gsp"}, {"version", version()}};
-  whole.update(report);
-  // Names of files may hold any bytes; those that are not UTF-8 are replaced.
-  context.out << whole.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-}
-
-Json error_report(const Error& error) {
-  Json report = {{"cause", cause_name(error.cause())}, {"message", error.what()}};
-  if (error.index()) {
-    report["element"] = element_name(error.element());
-    report["index"] = *error.index();
-  }
-  return report;
+void add_report(CLI::App& app, Context& context) {
+  Command command(app, context, "report",
+                  "a page that answers what a run was for: sentences, curves, surfaces, figures");
+  auto options = std::make_shared<Options>();
+  command.argument("RUN", options->run, "store of gsp sweep, or folder of gsp curve");
+  command.output("DIR", options->output, "folder for index.html, which opens from disk, and what it shows");
+  command.text("--recipe", options->report.recipe, "of a store with several", "the latest");
+  command.integer("--views", options->report.views, 0, 100, "cells of each model in the 3D view, a few MB each");
+  command.flag("--no-figures", options->no_figures, "leave the figures out, and with them gnuplot");
+  command.on_run([options, &context] { return run_report(*options, context); });
 }
 
 }  // namespace gsp::cli

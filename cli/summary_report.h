@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "cli/report.h"
+#include "cli/print.h"
 #include "experiments/summary.h"
 
 namespace gsp::cli {

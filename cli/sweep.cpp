@@ -9,7 +9,7 @@
 #include <ostream>
 
 #include "cli/options.h"
-#include "cli/report.h"
+#include "cli/print.h"
 #include "cli/summary_report.h"
 #include "experiments/slurm.h"
 #include "experiments/stage_runner.h"

@@ -11,4 +11,8 @@ namespace gsp {
 /// whole. A text with a comma, quote or line break is quoted as RFC 4180 has it. Throws Error(CannotWrite).
 void write_curve_csv(const std::string& path, const std::vector<CurvePoint>& points);
 
+/// Reads what `write_curve_csv` wrote, by the names of the columns; others are left alone, and a missing one is an
+/// error. Throws Error: CannotOpen; Malformed with the line.
+std::vector<CurvePoint> read_curve_csv(const std::string& path);
+
 }  // namespace gsp

@@ -11,9 +11,13 @@ namespace gsp {
 /// One panel: a model and its points.
 using PlotPanel = std::pair<std::string, std::vector<CurvePoint>>;
 
+/// A colour for each method, as #rrggbb: the methods' own, and for other names, such as those of settings, further ones
+/// in turn.
+std::vector<std::string> method_colors(const std::vector<std::string>& methods);
+
 /// The gnuplot program that draws panels side by side to NAME.png and NAME.svg in its working folder: PSNR over bytes
-/// (logarithmic), one line a method, remeshing ceilings dashed. The data stand in it, so it can be restyled and run
-/// again.
+/// (logarithmic), one line a method, the first wider, remeshing ceilings dashed. The data stand in it, so it can be
+/// restyled and run again.
 std::string plot_script(const std::string& name, const std::vector<PlotPanel>& panels);
 
 /// Writes FOLDER/NAME.gp and runs gnuplot on it; returns the names of the files made.

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "mesh/bounding_box.h"
 #include "mesh/error.h"
 
 namespace gsp {
@@ -45,9 +46,7 @@ Vec3 broad_side(const Mesh& mesh) {
 /// vertices near that end covers most of the box of all, seen along the axis. y, then z where several are as good.
 Vec3 standing(const Mesh& mesh) {
   constexpr double kNear = 0.02;  // share of the extent
-  Eigen::AlignedBox3d box;
-  for (const Triangle& t : mesh.faces)
-    for (int v : t) box.extend(mesh.positions[v]);
+  const Eigen::AlignedBox3d box = bounding_box(mesh);
   const Vec3 extent = box.sizes().cwiseMax(1e-300);
   Vec3 best = Vec3::UnitY();
   double broadest = 0.0;

@@ -20,4 +20,7 @@ struct Image {
 /// Throws Error(CannotWrite).
 void write_png(const std::string& path, const Image& image);
 
+/// The images from left to right on white, centred in height.
+Image side_by_side(const std::vector<Image>& images);
+
 }  // namespace gsp

@@ -26,32 +26,6 @@ const std::array<Colour, 10> kPatchColours = {
 
 Colour over(const Colour& under, const Colour& ink, double share) { return under + share * (ink - under); }
 
-/// #P places in the palette: patches take the colour that the patches around them use least, edges before corners.
-std::vector<int> patch_colours(const BaseComplex& base) {
-  std::vector<std::vector<int>> around(base.vertices.size());
-  for (int p = 0; p < base.face_count(); ++p)
-    for (int b : base.faces[p]) around[b].push_back(p);
-  std::vector<int> colour(base.faces.size(), -1);
-  std::array<int, kPatchColours.size()> used = {};
-  for (int p = 0; p < base.face_count(); ++p) {
-    std::array<int, kPatchColours.size()> conflicts = {};
-    constexpr int kAcrossEdge = 1000;
-    for (int b : base.faces[p])
-      for (int q : around[b])
-        if (colour[q] >= 0) ++conflicts[colour[q]];
-    for (int k = 0; k < 3; ++k) {
-      const int twin = base.twins[3 * p + k];
-      if (twin >= 0 && colour[twin / 3] >= 0) conflicts[colour[twin / 3]] += kAcrossEdge;
-    }
-    int best = 0;
-    for (int c = 1; c < static_cast<int>(kPatchColours.size()); ++c)
-      if (std::tie(conflicts[c], used[c]) < std::tie(conflicts[best], used[best])) best = c;
-    colour[p] = best;
-    ++used[best];
-  }
-  return colour;
-}
-
 /// Which patch holds a point of a face.
 class PatchLookup {
  public:
@@ -105,13 +79,40 @@ Paint with_lattice_lines(Paint under, const Parameterization& map, int density, 
 
 }  // namespace
 
+std::vector<Colour> patch_colours(const BaseComplex& base) {
+  std::vector<std::vector<int>> around(base.vertices.size());
+  for (int p = 0; p < base.face_count(); ++p)
+    for (int b : base.faces[p]) around[b].push_back(p);
+  std::vector<int> colour(base.faces.size(), -1);
+  std::array<int, kPatchColours.size()> used = {};
+  for (int p = 0; p < base.face_count(); ++p) {
+    std::array<int, kPatchColours.size()> conflicts = {};
+    constexpr int kAcrossEdge = 1000;
+    for (int b : base.faces[p])
+      for (int q : around[b])
+        if (colour[q] >= 0) ++conflicts[colour[q]];
+    for (int k = 0; k < 3; ++k) {
+      const int twin = base.twins[3 * p + k];
+      if (twin >= 0 && colour[twin / 3] >= 0) conflicts[colour[twin / 3]] += kAcrossEdge;
+    }
+    int best = 0;
+    for (int c = 1; c < static_cast<int>(kPatchColours.size()); ++c)
+      if (std::tie(conflicts[c], used[c]) < std::tie(conflicts[best], used[best])) best = c;
+    colour[p] = best;
+    ++used[best];
+  }
+  std::vector<Colour> colours;
+  for (int place : colour) colours.push_back(kPatchColours[place]);
+  return colours;
+}
+
 Paint plain_paint() {
   return [](const Fragment&) { return kPlaster; };
 }
 
 Paint patch_paint(const Parameterization& map) {
   return [lookup = PatchLookup(map), colour = patch_colours(map.base)](const Fragment& fragment) {
-    return kPatchColours[colour[lookup.patch_at(fragment)]];
+    return colour[lookup.patch_at(fragment)];
   };
 }
 

@@ -10,6 +10,9 @@ namespace gsp {
 
 // Colours of surfaces. Each paint keeps what it needs; the maps and meshes that it is given may go.
 
+/// #P light colours, such that neighbours differ, those across an edge before those across a corner. O(P).
+std::vector<Colour> patch_colours(const BaseComplex& base);
+
 /// The same everywhere, the gray of plaster.
 Paint plain_paint();
 /// A light colour for each patch, cut where the map cuts the faces; neighbours differ. O(F).

@@ -1,5 +1,6 @@
 #include "experiments/figures/remesh_map.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace gsp {
@@ -46,6 +47,16 @@ Parameterization remesh_as_map(const SemiregularMesh& mesh) {
     }
   }
   return map;
+}
+
+SemiregularMesh at_level(SemiregularMesh mesh, int level) {
+  const std::vector<SubdivisionLevel> levels =
+      subdivision_levels(mesh.base_vertices, mesh.base_faces, std::max(level, mesh.level));
+  for (int l = mesh.level; l < level; ++l)
+    for (const auto& [a, b] : levels[l].edges) mesh.positions.push_back(0.5 * (mesh.positions[a] + mesh.positions[b]));
+  mesh.positions.resize(levels[level].vertex_count);
+  mesh.level = level;
+  return mesh;
 }
 
 }  // namespace gsp

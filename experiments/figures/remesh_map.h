@@ -10,4 +10,8 @@ namespace gsp {
 /// O(faces).
 Parameterization remesh_as_map(const SemiregularMesh& mesh);
 
+/// The mesh at another level: vertices of finer ones left out, or midpoints added, which leaves the surface as it is.
+/// O(faces). Throws the errors of `subdivision_levels`.
+SemiregularMesh at_level(SemiregularMesh mesh, int level);
+
 }  // namespace gsp

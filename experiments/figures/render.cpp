@@ -59,19 +59,6 @@ std::vector<Vec3> vertex_normals(const Mesh& mesh) {
   return normals;
 }
 
-/// 1 where faces are counter-clockwise seen from outside, as they should be; -1 for a surface that is inside out: its
-/// volume, or for an open one that of the cone to the middle of its vertices, is negative.
-double orientation(const Mesh& mesh) {
-  Vec3 middle = Vec3::Zero();
-  for (const Triangle& t : mesh.faces)
-    middle += (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0;
-  middle /= static_cast<double>(mesh.faces.size());
-  double volume = 0.0;
-  for (const Triangle& t : mesh.faces)
-    volume += (mesh.positions[t[0]] - middle).cross(mesh.positions[t[1]] - middle).dot(mesh.positions[t[2]] - middle);
-  return volume < 0.0 ? -1.0 : 1.0;
-}
-
 /// What a sample sees: the nearest face and where in it.
 struct Sample {
   double depth = -std::numeric_limits<double>::infinity();
@@ -108,14 +95,35 @@ class Renderer {
     for (int f = 0; f < mesh_.face_count(); ++f) scan(f, begin * kSamples, end * kSamples, columns, samples);
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < image.width; ++x) {
-        Colour sum = Colour::Zero();
-        for (int j = 0; j < kSamples; ++j)
-          for (int i = 0; i < kSamples; ++i)
-            sum += shade(samples[static_cast<std::size_t>((y - begin) * kSamples + j) * columns + x * kSamples + i]);
+        std::array<Sample, kSamples * kSamples> inside;
+        for (int k = 0; k < kSamples * kSamples; ++k)
+          inside[k] = samples[static_cast<std::size_t>((y - begin) * kSamples + k / kSamples) * columns + x * kSamples +
+                              k % kSamples];
+        const Colour colour = pixel(inside);
         for (int k = 0; k < 3; ++k)
           image.rgb[3 * (static_cast<std::size_t>(y) * image.width + x) + k] =
-              static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(sum[k] / (kSamples * kSamples), 0.0, 1.0)));
+              static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(colour[k], 0.0, 1.0)));
       }
+  }
+
+  /// Mean colour of a pixel's samples. Those of one face are shaded once, in their middle: paint blurs its own lines.
+  Colour pixel(std::array<Sample, kSamples * kSamples>& samples) const {
+    std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.face < b.face; });
+    Colour sum = Colour::Zero();
+    for (std::size_t i = 0; i < samples.size();) {
+      Sample mean = samples[i];
+      std::size_t end = i + 1;
+      for (; end < samples.size() && samples[end].face == mean.face; ++end) {
+        mean.w0 += samples[end].w0;
+        mean.w1 += samples[end].w1;
+      }
+      const double count = static_cast<double>(end - i);
+      mean.w0 /= count;
+      mean.w1 /= count;
+      sum += count * shade(mean);
+      i = end;
+    }
+    return sum / static_cast<double>(samples.size());
   }
 
   /// Weights of the corners as functions of the pixel: w_k = value_k + slope_k · (x, y). False where seen edge-on.
@@ -200,6 +208,17 @@ Image render(const Mesh& mesh, const Camera& camera, const Paint& paint, const R
   if (options.size < kSmallest || options.size > kLargest)
     throw Error(Cause::BadOption, "the size of a picture is not in 16..8192");
   return Renderer(mesh, camera, paint, options).draw();
+}
+
+double orientation(const Mesh& mesh) {
+  Vec3 middle = Vec3::Zero();
+  for (const Triangle& t : mesh.faces)
+    middle += (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0;
+  middle /= static_cast<double>(mesh.faces.size());
+  double volume = 0.0;
+  for (const Triangle& t : mesh.faces)
+    volume += (mesh.positions[t[0]] - middle).cross(mesh.positions[t[1]] - middle).dot(mesh.positions[t[2]] - middle);
+  return volume < 0.0 ? -1.0 : 1.0;
 }
 
 double line_ink(const std::array<double, 3>& values, const Fragment& fragment, double width) {

@@ -30,6 +30,10 @@ struct RenderOptions {
 /// for any number of threads. O(F + pixels). Throws Error: BadOption, those of `require_finite_surface`.
 Image render(const Mesh& mesh, const Camera& camera, const Paint& paint, const RenderOptions& options);
 
+/// 1 where faces are counter-clockwise seen from outside, as they should be; -1 for a surface that is inside out: its
+/// volume, or for an open one that of the cone to the middle of its faces, is negative. O(F).
+double orientation(const Mesh& mesh);
+
 /// Share in [0, 1] of ink where a function, linear on the face with these values at its corners, is within half of
 /// `width` pixels of an integer. Lines closer than a few pixels fade into the tint they would average to.
 double line_ink(const std::array<double, 3>& values, const Fragment& fragment, double width);

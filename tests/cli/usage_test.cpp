@@ -6,7 +6,7 @@
 namespace {
 
 const std::vector<std::string> kCommands = {"info",   "parameterize", "remesh",     "encode",
-                                            "decode", "distance",     "distortion", "curve",  "picture"};
+                                            "decode", "distance",     "distortion", "curve",  "picture", "report"};
 
 }  // namespace
 
@@ -30,6 +30,7 @@ TEST_CASE("the help of every command gives the default and range of every option
       CAPTURE(entry);
       const bool flag = contains(entry, "--help") || contains(entry, "--json") || contains(entry, "--quiet") ||
                         contains(entry, "--verbose") || contains(entry, "--check ") || contains(entry, "--no-anchors") ||
+                        contains(entry, "--no-figures") ||
                         contains(entry, "--metro ") || contains(entry, "--mpeg ");
       CHECK((flag || contains(entry, "[") || contains(entry, "(required)")));
     };
@@ -81,6 +82,8 @@ TEST_CASE("wrong usage has status 2, a reason on standard error and no data") {
       {"picture", "a.ply", "-o", "p.png", "--view", "0,0,0"},
       {"picture", "a.ply", "-o", "p.png", "--up", "1,nan,0"},
       {"picture", "a.ply", "-o", "p.png", "--size", "15"},
+      {"report", "a"},
+      {"report", "a", "-o", "b", "--views", "-1"},
       {"curve", "a.ply"},
       {"curve", "-o", "d"},
       {"curve", "a.ply", "-o", "d", "--budgets", "100,0"},

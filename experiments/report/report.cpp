@@ -1,0 +1,181 @@
+#include "experiments/report/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "experiments/curve_csv.h"
+#include "experiments/report/page.h"
+#include "experiments/report/paper.h"
+#include "experiments/report/run_figures.h"
+#include "experiments/report/view_data.h"
+#include "experiments/summary.h"
+#include "experiments/version.h"
+#include "mesh/atomic_file.h"
+
+namespace gsp {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void write_text(const std::string& path, const std::string& text) {
+  AtomicFile file(path);
+  file.stream() << text;
+  file.commit();
+}
+
+Json optional(const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(); }
+
+Json point_json(const CurvePoint& p) {
+  return {{"bytes", p.bytes},
+          {"bits_per_vertex", p.bits_per_vertex},
+          {"psnr_db", p.psnr_db},
+          {"standard_error_db", p.standard_error_db},
+          {"rms", p.rms},
+          {"rms_forward", p.rms_forward},
+          {"rms_backward", p.rms_backward},
+          {"hausdorff", p.hausdorff},
+          {"faces", p.faces},
+          {"samples", p.samples}};
+}
+
+class Report {
+ public:
+  Report(const std::string& run_folder, std::string folder, const ReportOptions& options, Progress& progress)
+      : run_(read_run(run_folder, options.recipe)), folder_(std::move(folder)), options_(options), progress_(progress) {
+    result_.findings = findings(run_);
+    std::filesystem::create_directories(folder_);
+  }
+
+  ReportResult make() {
+    result_.files.push_back(folder_ + "/index.html");
+    write_csv();
+    write_views();
+    const std::vector<RunFigure> figures =
+        options_.figures ? run_figures(run_, result_.findings, folder_, progress_) : std::vector<RunFigure>();
+    for (const RunFigure& figure : figures) {
+      result_.files.push_back(folder_ + "/" + figure.png);
+      if (!figure.svg.empty()) result_.files.push_back(folder_ + "/" + figure.svg);
+    }
+    write_text(result_.files.front(), report_page(run_json(figures).dump()));
+    return std::move(result_);
+  }
+
+ private:
+  void write_csv() {
+    std::vector<CurvePoint> all;
+    for (const StoredCell& cell : run_.cells) {
+      const std::vector<CurvePoint> points = cell.points();
+      all.insert(all.end(), points.begin(), points.end());
+    }
+    write_curve_csv(folder_ + "/curve.csv", all);
+    result_.files.push_back(folder_ + "/curve.csv");
+  }
+
+  /// The cells of a model that the 3D view shows: the reference first.
+  std::vector<const StoredCell*> viewed_cells(const StoredModel& model) const {
+    std::vector<const StoredCell*> cells;
+    for (const StoredCell& cell : run_.cells)
+      if (cell.model == model.name && cell.status == CellStatus::Done && !cell.artefact("stream").empty())
+        cells.push_back(&cell);
+    std::stable_partition(cells.begin(), cells.end(),
+                          [&](const StoredCell* c) { return c->label == result_.findings.reference; });
+    // One of each method before further settings of one.
+    std::map<std::string, int> uses;
+    std::vector<std::pair<int, const StoredCell*>> order;
+    for (const StoredCell* cell : cells) order.emplace_back(uses[cell->options.method]++, cell);
+    std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    cells.clear();
+    for (const auto& [use, cell] : order)
+      if (static_cast<int>(cells.size()) < options_.views) cells.push_back(cell);
+    return cells;
+  }
+
+  void write_views() {
+    for (const StoredModel& model : run_.models) {
+      if (model.path.empty()) continue;
+      for (const StoredCell* cell : viewed_cells(model)) {
+        std::filesystem::create_directories(folder_ + "/views");
+        const std::string name = fmt::format("views/{}.js", views_.size());
+        Progress named = progress_.within(model.name + ", " + cell->label);
+        write_text(folder_ + "/" + name, fmt::format("gspView(\"{}\", {});\n", name, view_json(model, *cell, named)));
+        views_[{model.name, cell->label}] = name;
+        result_.files.push_back(folder_ + "/" + name);
+      }
+    }
+  }
+
+  Json curve_json(const StoredCell& cell, const MethodSummary* summary) const {
+    Json points = Json::array();
+    for (const CurvePoint& p : cell.points()) points.push_back(point_json(p));
+    Json bytes_at = Json::array();
+    for (std::size_t i = 0; i < std::size(kTableLevelsDb); ++i)
+      bytes_at.push_back(summary ? optional(summary->bytes_at[i]) : Json());
+    const Comparison* comparison = result_.findings.comparison(cell.model, cell.label);
+    const auto view = views_.find({cell.model, cell.label});
+    const bool anchor = is_anchor(cell.options.method);
+    return {{"label", cell.label},
+            {"method", cell.options.method},
+            {"ceiling_db", optional(cell.number("ceiling_db"))},
+            {"base_vertices", optional(cell.number("base_vertices"))},
+            {"level", optional(cell.number("level"))},
+            {"remesh_error", optional(cell.number("remesh_error"))},
+            {"paper_error", anchor ? Json() : optional(paper_remesh_error(cell.model))},
+            {"bytes_at", bytes_at},
+            {"bd_rate", comparison ? optional(comparison->bd_rate) : Json()},
+            {"bd_note", comparison ? comparison->note : ""},
+            {"view", view == views_.end() ? Json() : Json(view->second)},
+            {"points", points}};
+  }
+
+  Json model_json(const StoredModel& model) const {
+    const CurveSummary summary = summarize(model.name, by_method(run_.labelled_points(model.name)));
+    Json curves = Json::array();
+    for (const StoredCell& cell : run_.cells) {
+      if (cell.model != model.name) continue;
+      const auto row = std::find_if(summary.methods.begin(), summary.methods.end(),
+                                    [&](const MethodSummary& m) { return m.method == cell.label; });
+      curves.push_back(curve_json(cell, row == summary.methods.end() ? nullptr : &*row));
+    }
+    return {{"name", model.name}, {"vertices", model.vertices}, {"faces", model.faces}, {"curves", curves}};
+  }
+
+  Json run_json(const std::vector<RunFigure>& figures) const {
+    Json models = Json::array(), failures = Json::array(), pictures = Json::array();
+    for (const StoredModel& model : run_.models) models.push_back(model_json(model));
+    for (const StoredCell& cell : run_.cells)
+      if (cell.status == CellStatus::Failed)
+        failures.push_back(
+            {{"model", cell.model}, {"label", cell.label}, {"cause", cell.cause}, {"failure", cell.failure}});
+    for (const RunFigure& f : figures) pictures.push_back({{"png", f.png}, {"svg", f.svg}, {"caption", f.caption}});
+    return {{"name", run_.name},
+            {"about", fmt::format("{} models, {} cells, gsp {}", run_.models.size(), run_.cells.size(), version())},
+            {"reference", result_.findings.reference},
+            {"sentences", result_.findings.sentences},
+            {"levels_db", kTableLevelsDb},
+            {"models", models},
+            {"failures", failures},
+            {"figures", pictures}};
+  }
+
+  Run run_;
+  std::string folder_;
+  const ReportOptions& options_;
+  Progress& progress_;
+  ReportResult result_;
+  std::map<std::pair<std::string, std::string>, std::string> views_;  ///< file by model and label
+};
+
+}  // namespace
+
+ReportResult make_report(const std::string& run_folder, const std::string& folder, const ReportOptions& options,
+                         Progress& progress) {
+  return Report(run_folder, folder, options, progress).make();
+}
+
+}  // namespace gsp

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/store.h"
+
+namespace gsp {
+
+/// What is reported on: the models and cells of one recipe, however they were computed.
+struct Run {
+  std::string name;  ///< of the recipe, or of the folder
+  std::vector<StoredModel> models;
+  std::vector<StoredCell> cells;
+
+  /// Null where no model has the name.
+  const StoredModel* model(const std::string& name) const;
+  /// Labels of the cells in the order of their first ones.
+  std::vector<std::string> labels() const;
+  /// The points of a model's cells, their method replaced by the cell's label, which tells cells of one method apart.
+  std::vector<CurvePoint> labelled_points(const std::string& model) const;
+};
+
+/// Reads a store of `gsp sweep` (a recipe of it; empty stands for the latest), or the folder that `gsp curve` made,
+/// whose models have no surface and whose cells no artefacts but the removal costs. Throws Error(CannotOpen) where the
+/// folder is neither, and what `Store` and `read_curve_csv` throw.
+Run read_run(const std::string& folder, const std::string& recipe);
+
+}  // namespace gsp

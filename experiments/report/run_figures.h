@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/report/findings.h"
+#include "mesh/progress.h"
+
+namespace gsp {
+
+/// One figure: its files relative to the report's folder, and what it shows.
+struct RunFigure {
+  std::string png, svg;
+  std::string caption;
+};
+
+/// Draws what the run has the numbers or artefacts for into FOLDER/figures. Throws Error: ToolMissing, CannotWrite,
+/// Cancelled, and what reading artefacts throws.
+std::vector<RunFigure> run_figures(const Run& run, const Findings& found, const std::string& folder,
+                                   Progress& progress);
+
+}  // namespace gsp

@@ -1,0 +1,281 @@
+#include "experiments/report/run_plots.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "experiments/gnuplot.h"
+#include "experiments/plot.h"
+#include "experiments/report/cost.h"
+#include "experiments/report/paper.h"
+
+namespace gsp {
+
+namespace {
+
+constexpr std::size_t kMostPanels = 4;
+/// More bars a group than a reader can tell apart; a table has them.
+constexpr std::size_t kMostBars = 12;
+constexpr const char* kGrid = "set grid ytics back lt 1 lw 1 lc rgb '#e4e4e4'\n";
+
+void add_figure(std::vector<RunFigure>& figures, const std::string& folder, const std::string& name,
+                const std::string& script, const std::string& caption) {
+  draw_figure(folder + "/figures", name, script);
+  figures.push_back({"figures/" + name + ".png", "figures/" + name + ".svg", caption});
+}
+
+/// A text as a field of inline data, where double quotes count and single ones do not.
+std::string data_text(const std::string& text) {
+  std::string result = "\"";
+  for (char c : text) result += c == '"' || c == '\\' || static_cast<unsigned char>(c) < 32 ? ' ' : c;
+  return result + '"';
+}
+
+std::string value_or_missing(const std::optional<double>& value, double scale = 1.0) {
+  return value ? fmt::format("{:.6g}", scale * *value) : "NaN";
+}
+
+/// Groups of bars: a row a model, a column a label.
+std::string bars(const std::vector<std::string>& labels, const std::string& rows,
+                 const std::vector<std::string>& colors) {
+  const auto groups = std::count(rows.begin(), rows.end(), '\n');
+  std::string script = fmt::format("set xrange [-0.6:{}.6]\n", groups - 1);
+  script += "$bars << EOD\n" + rows + "EOD\nset style data histogram\nset style histogram cluster gap 1\n" +
+            "set style fill solid border rgb 'white'\nset key outside top center horizontal noenhanced\n" + kGrid +
+            "set xtics scale 0 noenhanced\n";
+  script += "bars = \"plot ";
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    script += fmt::format("{}$bars using {}:xtic(1) lc rgb '{}' title {}", i ? ", " : "", i + 2, colors[i],
+                          gnuplot_quoted(labels[i]));
+  return script + "\"\n";
+}
+
+/// The labels of a model's finished maps, in the order of the run.
+bool has_map(const StoredCell& cell) {
+  return cell.status == CellStatus::Done && cell.number("remesh_error").has_value();
+}
+
+/// The two numeric options that vary within a model for the method; fewer or more than two where there is no such pair.
+std::vector<const Axis*> varying_numbers(const Run& run, const std::string& method) {
+  std::vector<const Axis*> varying;
+  for (const Axis& axis : axes()) {
+    if (axis.kind == Axis::Kind::Word) continue;
+    std::map<std::string, std::set<std::string>> values;
+    for (const StoredCell& cell : run.cells)
+      if (cell.options.method == method) values[cell.model].insert(to_string(axis.get(cell.options)));
+    if (std::any_of(values.begin(), values.end(), [](const auto& v) { return v.second.size() > 1; }))
+      varying.push_back(&axis);
+  }
+  return varying;
+}
+
+double number_of(const AxisValue& value) {
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return static_cast<double>(*integer);
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  return -1.0;  // "auto", before all numbers
+}
+
+/// The values of an option over a sweep, ascending, and where each stands.
+class Scale {
+ public:
+  Scale(const Run& run, const std::string& method, const Axis& axis) : axis_(axis) {
+    std::map<double, std::string> texts;
+    for (const StoredCell& cell : run.cells)
+      if (cell.options.method == method) texts[number_of(axis.get(cell.options))] = to_string(axis.get(cell.options));
+    for (const auto& [number, text] : texts) texts_.push_back(text);
+  }
+  std::size_t place(const StoredCell& cell) const {
+    const std::string text = to_string(axis_.get(cell.options));
+    return static_cast<std::size_t>(std::find(texts_.begin(), texts_.end(), text) - texts_.begin());
+  }
+  std::string tics() const {
+    std::string tics;
+    for (std::size_t i = 0; i < texts_.size(); ++i) tics += fmt::format("{}'{}' {}", i ? ", " : "", texts_[i], i);
+    return tics;
+  }
+  std::size_t size() const { return texts_.size(); }
+  const char* name() const { return axis_.name; }
+
+ private:
+  const Axis& axis_;
+  std::vector<std::string> texts_;
+};
+
+/// One panel of a heat map: rows "x y value text" by the cells of one method. `value` gives that of a label.
+template <class Value>
+std::string heat_rows(const Run& run, const std::string& method, const Scale& x, const Scale& y, const Value& value) {
+  std::map<std::pair<std::size_t, std::size_t>, std::string> rows;
+  for (const StoredCell& cell : run.cells) {
+    if (cell.options.method != method) continue;
+    const std::optional<double> v = value(cell.label);
+    rows[{y.place(cell), x.place(cell)}] =
+        value_or_missing(v) + ' ' + (v ? fmt::format("{:+.1f}", *v) : std::string("–"));
+  }
+  std::string text;
+  for (std::size_t j = 0; j < y.size(); ++j)
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const auto row = rows.find({j, i});
+      text += fmt::format("{} {} {}\n", i, j, row == rows.end() ? "NaN –" : row->second);
+    }
+  return text;
+}
+
+}  // namespace
+
+void curve_figures(const Run& run, const std::string& folder, std::vector<RunFigure>& figures) {
+  std::vector<PlotPanel> panels;
+  for (const StoredModel& model : run.models) {
+    std::vector<CurvePoint> points = run.labelled_points(model.name);
+    if (points.empty()) continue;
+    const std::string name = "curve-" + model.name;
+    add_figure(figures, folder, name, plot_script(name, {{model.name, points}}),
+               "Rate-distortion curves of " + model.name + ", ceilings dashed (the paper's figure 7).");
+    panels.emplace_back(model.name, std::move(points));
+  }
+  if (panels.size() < 2 || panels.size() > kMostPanels) return;
+  add_figure(figures, folder, "curves", plot_script("curves", panels),
+             "Rate-distortion curves (the paper's figure 7).");
+}
+
+void bar_figure(const Run& run, const Findings& found, const std::string& folder, std::vector<RunFigure>& figures) {
+  std::vector<std::string> labels;
+  for (const Comparison& c : found.comparisons)
+    if (c.bd_rate && std::find(labels.begin(), labels.end(), c.label) == labels.end()) labels.push_back(c.label);
+  if (labels.empty() || labels.size() > kMostBars) return;
+  std::string rows;
+  for (const StoredModel& model : run.models) {
+    rows += data_text(model.name);
+    for (const std::string& label : labels) {
+      const Comparison* c = found.comparison(model.name, label);
+      rows += ' ' + value_or_missing(c ? c->bd_rate : std::nullopt);
+    }
+    rows += '\n';
+  }
+  const std::string setup = bars(labels, rows, method_colors(labels)) +
+                            "set datafile separator whitespace\nset ylabel 'bytes over those of " + found.reference +
+                            ", %'\nset xzeroaxis lt 1 lc rgb '#555555'\nset yrange [*<0:0<*]\n";
+  add_figure(figures, folder, "bd-rate", figure_script("bd-rate", setup, "eval(bars)\n", 900, 500),
+             fmt::format("BD-rate against {}: bytes that each needs more at equal PSNR, ceilings respected.",
+                         found.reference));
+}
+
+void heat_figure(const Run& run, const Findings& found, const std::string& folder, std::vector<RunFigure>& figures) {
+  const auto reference =
+      std::find_if(run.cells.begin(), run.cells.end(), [&](const StoredCell& c) { return c.label == found.reference; });
+  if (reference == run.cells.end()) return;
+  const std::string& method = reference->options.method;
+  const std::vector<const Axis*> varying = varying_numbers(run, method);
+  if (varying.size() != 2) return;
+  const Scale x(run, method, *varying[0]), y(run, method, *varying[1]);
+
+  std::vector<std::pair<std::string, std::string>> panels;
+  panels.emplace_back("mean of the models", heat_rows(run, method, x, y, [&](const std::string& label) {
+                        int models = 0;
+                        return label == found.reference ? std::optional(0.0) : found.mean_bd_rate(label, models);
+                      }));
+  for (const StoredModel& model : run.models)
+    if (panels.size() <= kMostPanels)
+      panels.emplace_back(model.name, heat_rows(run, method, x, y, [&](const std::string& label) {
+                            const Comparison* c = found.comparison(model.name, label);
+                            if (label == found.reference) return std::optional(0.0);
+                            return c ? c->bd_rate : std::nullopt;
+                          }));
+
+  std::string setup = fmt::format(
+      "set xtics ({}) scale 0\nset ytics ({}) scale 0\nset xlabel '{}'\nset ylabel '{}'\nset xrange [-0.5:{}.5]\n"
+      "set yrange [-0.5:{}.5]\nset cbrange [-25:25]\nunset key\n"
+      "set palette defined (-25 '#2166ac', 0 '#f7f7f7', 25 '#b2182b')\nset size square\n",
+      x.tics(), y.tics(), x.name(), y.name(), x.size() - 1, y.size() - 1);
+  std::string commands = fmt::format("set multiplot layout 1,{} title {}\n", panels.size(),
+                                     gnuplot_quoted("bytes over those of " + found.reference + ", %"));
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    setup += fmt::format("$heat{} << EOD\n{}EOD\n", i, panels[i].second);
+    commands +=
+        fmt::format("set title {} noenhanced\nplot $heat{} using 1:2:3 with image, '' using 1:2:4 with labels\n",
+                    gnuplot_quoted(panels[i].first), i);
+  }
+  add_figure(
+      figures, folder, "settings",
+      figure_script("settings", setup, commands + "unset multiplot\n", 460 * static_cast<int>(panels.size()), 430),
+      fmt::format("BD-rate over {} and {} against {}: blue needs fewer bytes, red more.", x.name(), y.name(),
+                  found.reference));
+}
+
+void cost_figures(const Run& run, const Findings& found, const std::string& folder, std::vector<RunFigure>& figures) {
+  for (const StoredModel& model : run.models) {
+    const auto cell = std::find_if(run.cells.begin(), run.cells.end(), [&](const StoredCell& c) {
+      return c.model == model.name && c.label == found.reference && !c.artefact("omega").empty();
+    });
+    if (cell == run.cells.end()) continue;
+    const CostCurve cost = cost_curve(read_omega_csv(cell->artefact("omega")));
+    if (cost.bins.empty()) continue;
+    std::string setup =
+        "set logscale xy\nset key center left Left reverse\nset grid back lt 1 lw 1 lc rgb '#e4e4e4'\n"
+        "set xlabel 'vertices that remain'\nset ylabel 'cost {/Symbol W} times vertices that remain'\n"
+        "set format y '10^{%L}'\n";
+    setup += fmt::format("set xrange [{:.6g}:{:.6g}]\nset title {} noenhanced\n", cost.bins.front().remaining,
+                         cost.bins.back().remaining, gnuplot_quoted(model.name));
+    std::vector<double> borders = {cost.bins.front().remaining};
+    for (const std::optional<double>& at : {cost.second_stage, cost.third_stage}) {
+      if (!at) continue;
+      setup += fmt::format("set arrow from {0:.6g}, graph 0 to {0:.6g}, graph 1 nohead dt 2 lc rgb '#888888'\n", *at);
+      borders.push_back(*at);
+    }
+    borders.push_back(cost.bins.back().remaining);
+    for (std::size_t stage = 1; stage < borders.size(); ++stage)
+      setup += fmt::format("set label {0} '{0}' at {1:.6g}, graph 0.05 center font ',16' tc rgb '#888888'\n", stage,
+                           std::sqrt(borders[stage - 1] * borders[stage]));
+    setup += "$cost << EOD\n";
+    for (const CostBin& bin : cost.bins)
+      setup += fmt::format("{:.6g} {:.6g} {:.6g}\n", bin.remaining, bin.quality, bin.metric);
+    setup += "EOD\n";
+    const std::string commands =
+        "plot $cost using 1:($2+$3) with lines lw 3 lc rgb '#c8102e' title 'cost', '' using 1:2 with lines lw 2 lc rgb "
+        "'#1f5fa8' title 'triangle quality', '' using 1:3 with lines lw 2 lc rgb '#2b2b2b' title 'metric distortion'\n";
+    add_figure(
+        figures, folder, "cost-" + model.name, figure_script("cost-" + model.name, setup, commands, 900, 560),
+        fmt::format("Cost of vertex removals on {}, the paper's figure 5d: 1 mends ill-shaped triangles, 2 ascends "
+                    "slowly, 3 is ruled by "
+                    "metric distortion; {}.",
+                    model.name,
+                    cost.third_stage ? fmt::format("metric distortion takes over at {:.0f} vertices", *cost.third_stage)
+                                     : "the base was reached before metric distortion took over"));
+  }
+}
+
+void error_figure(const Run& run, const std::string& folder, std::vector<RunFigure>& figures) {
+  std::vector<std::string> labels;
+  for (const StoredCell& cell : run.cells)
+    if (has_map(cell) && std::find(labels.begin(), labels.end(), cell.label) == labels.end())
+      labels.push_back(cell.label);
+  if (labels.empty() || labels.size() > kMostBars) return;
+  bool paper = false;
+  std::string rows;
+  for (const StoredModel& model : run.models) {
+    rows += data_text(model.name);
+    for (const std::string& label : labels) {
+      const auto cell = std::find_if(run.cells.begin(), run.cells.end(), [&](const StoredCell& c) {
+        return c.model == model.name && c.label == label && has_map(c);
+      });
+      rows += ' ' + value_or_missing(cell == run.cells.end() ? std::nullopt : cell->number("remesh_error"), 1e5);
+    }
+    const auto published = paper_remesh_error(model.name);
+    paper = paper || published;
+    rows += ' ' + value_or_missing(published, 1e5) + '\n';
+  }
+  std::vector<std::string> colors = method_colors(labels);
+  if (paper) {
+    labels.push_back("paper, Table 1");
+    colors.push_back("#d8a200");
+  }
+  const std::string setup =
+      bars(labels, rows, colors) + "set ylabel 'remeshing error, 10^{-5} of the diagonal'\nset yrange [0:*]\n";
+  add_figure(figures, folder, "remesh-error", figure_script("remesh-error", setup, "eval(bars)\n", 900, 500),
+             "RMS distance of the uncoded remesh (the paper's Table 1); the level of the remesh decides it as much as "
+             "the map.");
+}
+
+}  // namespace gsp

@@ -1,0 +1,195 @@
+#include "experiments/report/view_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include <Eigen/Geometry>
+
+#include "coder/codec.h"
+#include "experiments/figures/camera.h"
+#include "experiments/figures/map_measures.h"
+#include "experiments/figures/paint.h"
+#include "experiments/figures/remesh_map.h"
+#include "mesh/io.h"
+#include "mesh/read_file.h"
+#include "metrics/surface_distance.h"
+#include "remesh/chart_samples.h"
+
+namespace gsp {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr long long kMostFaces = 70'000;
+constexpr std::size_t kMostSizes = 8;
+/// Below this a decoded surface is hardly one.
+constexpr std::size_t kLeastBytes = 512;
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+  static const char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (k < count ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[word >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+template <class Number>
+std::string base64_little_endian(const std::vector<Number>& numbers) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(numbers.size() * sizeof(Number));
+  for (Number number : numbers)
+    for (std::size_t k = 0; k < sizeof(Number); ++k) bytes.push_back(static_cast<std::uint8_t>(number >> (8 * k)));
+  return base64(bytes);
+}
+
+int view_level(const SemiregularMesh& mesh) {
+  int level = 0;
+  while (level < mesh.level && static_cast<long long>(mesh.base_faces.size()) << (2 * (level + 1)) <= kMostFaces)
+    ++level;
+  return level;
+}
+
+/// For each patch the vertices at (i + jω) / n of its chart, row by row.
+std::vector<std::uint32_t> patch_grid(const Parameterization& map, int level) {
+  const int n = 1 << level;
+  const std::size_t in_patch = lattice_index(n, 0, n) + 1;
+  std::vector<std::uint32_t> grid(in_patch * map.base.faces.size());
+  for (int f = 0; f < map.surface.face_count(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const std::array<double, 3> w = chart_barycentric(map.face_corners[f][k]);
+      const int i = static_cast<int>(std::lround(n * w[1])), j = static_cast<int>(std::lround(n * w[2]));
+      grid[in_patch * map.face_chart[f] + lattice_index(n, i, j)] = static_cast<std::uint32_t>(map.surface.faces[f][k]);
+    }
+  return grid;
+}
+
+/// Shares of the way from neutral to full, in 1/255.
+std::vector<std::uint8_t> shares(const std::vector<double>& values, const ColourScale& scale) {
+  std::vector<std::uint8_t> result;
+  const double range = scale.full - scale.neutral;
+  for (double value : values)
+    result.push_back(static_cast<std::uint8_t>(
+        std::lround(255.0 * (range > 0.0 ? std::clamp((value - scale.neutral) / range, 0.0, 1.0) : 0.0))));
+  return result;
+}
+
+std::vector<double> vertex_means(const Mesh& mesh, const std::vector<double>& faces) {
+  std::vector<double> sum(mesh.positions.size(), 0.0), count(mesh.positions.size(), 0.0);
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (int v : mesh.faces[f]) {
+      sum[v] += faces[f];
+      count[v] += 1.0;
+    }
+  for (std::size_t v = 0; v < sum.size(); ++v) sum[v] /= std::max(count[v], 1.0);
+  return sum;
+}
+
+Json measures_json(const Parameterization& map) {
+  const std::map<std::string, std::string> texts = {
+      {"anisotropy", "Γ_a, the larger over the smaller singular value; 1 is neutral."},
+      {"area", "Γ_d, the product of the singular values, of mean 1."},
+      {"smoothness", "Jump of the first derivative between neighbouring faces; 0 is smooth."}};
+  Json result;
+  for (const MapMeasure& measure : map_measures(map, distortion(map), smoothness(map))) {
+    const auto text = texts.find(measure.column.name);
+    if (text == texts.end()) continue;
+    result[text->first] = {{"gray", measure.scale.neutral},
+                           {"red", measure.scale.full},
+                           {"text", text->second},
+                           {"values", base64(shares(vertex_means(map.surface, measure.column.values), measure.scale))}};
+  }
+  return result;
+}
+
+/// At most kMostSizes of the measured sizes, the largest included, evenly spread over them.
+std::vector<CurvePoint> shown_points(const StoredCell& cell) {
+  std::vector<CurvePoint> points = cell.points();
+  std::erase_if(points, [&](const CurvePoint& p) { return p.bytes < kLeastBytes && points.size() > 1; });
+  std::sort(points.begin(), points.end(), [](const CurvePoint& a, const CurvePoint& b) { return a.bytes < b.bytes; });
+  std::vector<CurvePoint> shown;
+  const std::size_t count = std::min(kMostSizes, points.size());
+  for (std::size_t i = 0; i < count; ++i)
+    shown.push_back(points[count == 1 ? points.size() - 1 : i * (points.size() - 1) / (count - 1)]);
+  return shown;
+}
+
+std::string positions_text(const std::vector<Vec3>& positions, const Eigen::AlignedBox3d& box) {
+  constexpr double kSteps = 65535.0;
+  std::vector<std::uint16_t> numbers;
+  for (const Vec3& p : positions)
+    for (int k = 0; k < 3; ++k) {
+      const double extent = box.sizes()[k];
+      numbers.push_back(static_cast<std::uint16_t>(
+          extent > 0.0 ? std::lround(kSteps * std::clamp((p[k] - box.min()[k]) / extent, 0.0, 1.0)) : 0));
+    }
+  return base64_little_endian(numbers);
+}
+
+Json triple(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+Json size_json(const CurvePoint& point, const Mesh& decoded, const SurfaceTree& input, double diagonal,
+               const Eigen::AlignedBox3d& box) {
+  std::vector<double> distances = vertex_distances(decoded, input);
+  for (double& d : distances) d /= diagonal;
+  std::vector<Weighted> weighted;
+  for (double d : distances) weighted.push_back({d, 1.0});
+  const double p95 = statistics(std::move(weighted)).p95;
+  return {{"bytes", point.bytes},
+          {"psnr_db", point.psnr_db},
+          {"positions", positions_text(decoded.positions, box)},
+          {"distance", base64(shares(distances, {0.0, p95}))},
+          {"distance_scale", p95}};
+}
+
+}  // namespace
+
+std::string view_json(const StoredModel& model, const StoredCell& cell, Progress& progress) {
+  const Mesh input = read_mesh(model.path);
+  const SurfaceTree tree(input);
+  const std::string file = read_file(cell.artefact("stream"));
+  const Bytes stream(file.begin(), file.end());
+  const std::vector<CurvePoint> points = shown_points(cell);
+
+  const SemiregularMesh whole = decode(stream, stream.size());
+  const int level = view_level(whole);
+  std::vector<Mesh> decoded;
+  Eigen::AlignedBox3d box;
+  for (const CurvePoint& point : points) {
+    progress.report("decode for the 3D view", static_cast<double>(decoded.size()) / static_cast<double>(points.size()));
+    decoded.push_back(at_level(decode(stream, point.bytes), level).mesh());
+    for (const Vec3& p : decoded.back().positions) box.extend(p);
+  }
+
+  const Parameterization map = remesh_as_map(at_level(whole, level));
+  const Camera camera = make_camera(input, {});
+  Json colours = Json::array();
+  for (const Colour& c : patch_colours(map.base)) {
+    const Colour rgb = (255.0 * c).round();
+    colours.push_back({static_cast<int>(rgb[0]), static_cast<int>(rgb[1]), static_cast<int>(rgb[2])});
+  }
+  Json sizes = Json::array();
+  for (std::size_t i = 0; i < points.size(); ++i)
+    sizes.push_back(size_json(points[i], decoded[i], tree, bounding_box_diagonal(input), box));
+  const Json view = {{"model", model.name},
+                     {"label", cell.label},
+                     {"level", level},
+                     {"outward", orientation(input)},
+                     {"camera", {triple(camera.right), triple(camera.up), triple(camera.toward)}},
+                     {"low", triple(box.min())},
+                     {"high", triple(box.max())},
+                     {"patch_colours", colours},
+                     {"grid", base64_little_endian(patch_grid(map, level))},
+                     {"measures", measures_json(map)},
+                     {"sizes", sizes}};
+  return view.dump();
+}
+
+}  // namespace gsp

@@ -1,0 +1,198 @@
+#include "experiments/report/report.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "experiments/curve_csv.h"
+#include "experiments/figures/sector_disc.h"
+#include "experiments/report/cost.h"
+#include "experiments/report/page.h"
+#include "experiments/report/paper.h"
+#include "metrics/distortion.h"
+#include "temporary_folder.h"
+
+using namespace gsp;
+
+namespace {
+
+/// A straight curve on log-bytes: 10 dB a factor of 4, through 50 dB at 1000·`factor` bytes.
+std::vector<CurvePoint> straight_curve(const std::string& model, const std::string& method, double factor) {
+  std::vector<CurvePoint> points;
+  for (int k = 0; k < 5; ++k) {
+    CurvePoint point;
+    point.model = model;
+    point.method = method;
+    point.bytes = static_cast<std::size_t>(std::lround(1000.0 * factor * std::pow(4.0, k)));
+    point.psnr_db = 50.0 + 10.0 * k;
+    point.rms = std::pow(10.0, -point.psnr_db / 20.0);
+    point.bits_per_vertex = 1.0;
+    point.remesh_error = method == "draco" ? 0.0 : 1e-7;
+    points.push_back(point);
+  }
+  return points;
+}
+
+void append(std::vector<CurvePoint>& points, const std::vector<CurvePoint>& more) {
+  points.insert(points.end(), more.begin(), more.end());
+}
+
+/// A cell of a sweep over gamma and mu.
+StoredCell setting(const std::string& model, double gamma, double mu, double factor) {
+  StoredCell cell;
+  cell.model = model;
+  cell.options.parameterize.gamma = gamma;
+  cell.options.parameterize.mu = mu;
+  cell.label = "gsp gamma=" + std::to_string(gamma) + " mu=" + std::to_string(mu);
+  cell.status = CellStatus::Done;
+  StageResult measure;
+  measure.kind = StageKind::Measure;
+  measure.points = straight_curve(model, "gsp", factor);
+  cell.stages.push_back(measure);
+  return cell;
+}
+
+std::string text_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("curve.csv comes back as it was written, and damage is named with its line") {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("curve.csv");
+  std::vector<CurvePoint> points = straight_curve("a, \"quoted\"\nname", "gsp", 1.0);
+  append(points, straight_curve("plain", "draco", 2.0));
+  write_curve_csv(path, points);
+  const std::vector<CurvePoint> read = read_curve_csv(path);
+  REQUIRE(read.size() == points.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    CHECK(read[i].model == points[i].model);
+    CHECK(read[i].method == points[i].method);
+    CHECK(read[i].bytes == points[i].bytes);
+    CHECK(read[i].psnr_db == Approx(points[i].psnr_db).margin(1e-4));
+  }
+  const std::string text = text_of(path);
+  std::ofstream(path) << text.substr(0, text.rfind(",gsp,") + 9);
+  CHECK_THROWS_AS(read_curve_csv(path), Error);
+  std::ofstream(path) << "model,bytes\nx,1\n";
+  CHECK_THROWS_AS(read_curve_csv(path), Error);
+}
+
+TEST_CASE("the first sentence says how many bytes the reference saves") {
+  const TemporaryFolder folder;
+  std::vector<CurvePoint> points = straight_curve("ball", "gsp", 1.0);
+  append(points, straight_curve("ball", "maps-smoothed", 1.6));
+  append(points, straight_curve("cube", "gsp", 1.0));
+  append(points, straight_curve("cube", "maps-smoothed", 2.0));
+  write_curve_csv(folder.file("curve.csv"), points);
+  const Findings found = findings(read_run(folder.path().string(), {}));
+  CHECK(found.reference == "gsp");
+  CHECK(*found.comparison("ball", "maps-smoothed")->bd_rate == Approx(60.0).margin(0.2));
+  int models = 0;
+  CHECK(*found.mean_bd_rate("maps-smoothed", models) == Approx(80.0).margin(0.2));
+  CHECK(models == 2);
+  REQUIRE(found.sentences.size() == 1);
+  CHECK(found.sentences[0] ==
+        "gsp needs 44% fewer bytes than maps-smoothed at equal PSNR, the mean of 2 models (ball −38%, cube −50%).");
+  CHECK(saving(100.0) == Approx(50.0));
+  CHECK(saving(-50.0) == Approx(-100.0));
+}
+
+TEST_CASE("a sweep over settings is answered with the best, and by how much") {
+  Run run;
+  run.name = "gamma-mu";
+  for (const char* model : {"ball", "cube"}) {
+    run.models.emplace_back().name = model;
+    run.cells.push_back(setting(model, 2.0, 1.0, 1.0));
+    run.cells.push_back(setting(model, 0.0, 1.0, 1.5));
+    run.cells.push_back(setting(model, 1.0, 1.0, 0.8));
+  }
+  const Findings found = findings(run);
+  CHECK(found.reference == run.cells[0].label);
+  REQUIRE(found.sentences.size() == 2);
+  CHECK(contains(found.sentences[0], "Of 3 settings, " + run.cells[2].label + " needs the fewest bytes"));
+  CHECK(contains(found.sentences[0], ": 20.0% fewer than " + run.cells[0].label));
+  CHECK(contains(found.sentences[0], run.cells[0].label + ", needs 25.0% more than it"));
+  CHECK(contains(found.sentences[1], "ball: " + run.cells[2].label + " (−20.0%)"));
+  run.cells[3].status = CellStatus::Failed;
+  run.cells[3].cause = "invalid-map";
+  CHECK(contains(findings(run).sentences.back(), "1 of 6 cells failed"));
+}
+
+TEST_CASE("a report of a curve folder is one page that needs nothing else") {
+  const TemporaryFolder folder;
+  std::vector<CurvePoint> points = straight_curve("</script>horse", "gsp", 1.0);
+  append(points, straight_curve("</script>horse", "draco", 3.0));
+  write_curve_csv(folder.file("curve.csv"), points);
+  Progress silent;
+  const ReportResult result =
+      make_report(folder.path().string(), folder.file("report"), {.recipe = {}, .figures = false, .views = 3}, silent);
+  const std::string page = text_of(result.files.front());
+  CHECK(contains(page, "\\u003c/script>horse"));
+  CHECK_FALSE(contains(page, "</script>horse"));
+  CHECK_FALSE(contains(page, "@@"));
+  CHECK_FALSE(contains(page, "src=\"http"));
+  CHECK(contains(page, "needs 67% fewer bytes than draco"));
+  CHECK_THROWS_AS(read_run(folder.file("nothing"), {}), Error);
+}
+
+TEST_CASE("a page holds its parts and the data once") {
+  const std::string page = report_page("{\"name\": \"@@style.css@@\"}");
+  CHECK(contains(page, "REVISION"));
+  CHECK(contains(page, "--accent"));
+  CHECK(contains(page, "{\"name\": \"@@style.css@@\"}"));
+}
+
+TEST_CASE("the stages of the cost are found where they were put") {
+  std::vector<OmegaRecord> record;
+  for (int n = 50000; n > 100; --n) {
+    OmegaRecord r;
+    r.remaining_vertices = n;
+    const double quality = n > 20000 ? 0.1 * std::pow(50000.0 / n, 0.7) : 0.19 * std::pow(20000.0 / n, 0.1);
+    r.shape = quality / n;
+    r.metric = (n > 400 ? 0.01 : 0.5) * quality / n;
+    record.push_back(r);
+  }
+  const CostCurve cost = cost_curve(record);
+  REQUIRE(cost.second_stage);
+  CHECK(*cost.second_stage == Approx(20000.0).epsilon(0.1));
+  REQUIRE(cost.third_stage);
+  CHECK(*cost.third_stage == Approx(400.0).epsilon(0.1));
+  CHECK(cost_curve({}).bins.empty());
+
+  const TemporaryFolder folder;
+  write_omega_csv(folder.file("omega.csv"), record);
+  CHECK(read_omega_csv(folder.file("omega.csv")).size() == record.size());
+  std::ofstream(folder.file("omega.csv"), std::ios::app) << "12,nan,0,0\n";
+  CHECK_THROWS_AS(read_omega_csv(folder.file("omega.csv")), Error);
+}
+
+TEST_CASE("the paper's models are known by their names") {
+  CHECK(*paper_remesh_error("Horse_48485") == Approx(5.16e-5));
+  CHECK_FALSE(paper_remesh_error("torus"));
+}
+
+TEST_CASE("sector discs are valid maps that keep the disc's symmetry") {
+  for (int sectors : {5, 6, 9}) {
+    CAPTURE(sectors);
+    const Parameterization relaxed = relaxed_sector_disc(sectors, 3), loop = loop_sector_disc(sectors, 3);
+    CHECK(check_map(relaxed).valid());
+    CHECK(check_map(loop).valid());
+    // Every sector is the image of the first one under the disc's rotation: all hold as many faces of their own.
+    std::vector<int> inside(relaxed.base.faces.size(), 0);
+    for (std::size_t v = 0; v < relaxed.patch.size(); ++v) {
+      const auto w = chart_barycentric(relaxed.position[v]);
+      inside[relaxed.patch[v]] += std::min({w[0], w[1], w[2]}) > 1e-6;
+    }
+    for (int count : inside) CHECK(count == inside.front());
+  }
+  // Six equilateral sectors are flat already.
+  CHECK(distortion(relaxed_sector_disc(6, 3)).anisotropy.maximum == Approx(1.0));
+}
