@@ -78,10 +78,9 @@ class Descent {
 
   /// One Newton step. Returns the share of the energy it gained, 0 where it found nothing.
   double step() {
-    Eigen::VectorXd direction;
-    solver_.factorize(hessian_.at(x_.data()));
+    if (!solver_.factorize(hessian_.at(x_.data()))) return 0.0;
     const Eigen::Map<Eigen::VectorXd> gradient(gradient_.data(), gradient_.size());
-    direction = solver_.solve(-gradient);
+    const Eigen::VectorXd direction = solver_.solve(-gradient);
     const double slope = gradient.dot(direction);
     if (!(slope < 0.0)) return 0.0;
     const double longest = energy_.longest_step(x_.data(), direction.data());

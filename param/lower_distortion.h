@@ -9,7 +9,7 @@ namespace gsp {
 /// with a convex Hessian; it ends before when a step gains little. No step leaves the maps without folds. The energy knows
 /// nothing of patches, so its minimiser is as smooth across patch edges as within them. Vertices are then given the charts
 /// they lie in. One sparse Cholesky factorization a step. Returns false, the map unchanged, where nothing was gained.
-/// Throws Error(SolverFailed, Cancelled).
+/// Throws Error(Cancelled).
 bool lower_distortion(Atlas& atlas, int steps, Progress& progress);
 
 }  // namespace gsp

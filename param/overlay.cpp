@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kSnap = 0.2;           // of a crossed edge, within which its end is moved onto the cut instead
 constexpr double kSmall = 1e-8;         // area of a piece in the plane, the ring's radius being 1, below which it is made larger
+constexpr double kLeast = 1e-13;        // share of a triangle, below which rounding could fold a piece
 constexpr int kRelaxations = 3;
 constexpr double kGain = 1.01;
 constexpr int kLongestCut = 1 << 20;
@@ -177,8 +178,12 @@ void OverlayMap::fill(int slot, const RingTriangle& triangle) {
       piece_state_[other / 3] = PieceState::Filled;
       pieces.push_back(other / 3);
     }
-  for (int f : pieces)
-    for (int v : refined_.corners(f)) {
+  const double whole = chart_area(ring_[triangle[0]], ring_[triangle[1]], ring_[triangle[2]]);
+  for (int f : pieces) {
+    const Triangle& t = refined_.corners(f);
+    if (!(chart_area(flat_[t[0]], flat_[t[1]], flat_[t[2]]) > kLeast * whole))
+      throw Error(Cause::InvalidMap, "a piece of the surface has no area left on the base", Element::Vertex, star_.center);
+    for (int v : t) {
       if (hold_[v] == Hold::Ring) continue;
       if (hold_[v] == Hold::Edge) {
         const Complex a = ring_[ring_index_[place_[v].a]], b = ring_[ring_index_[place_[v].b]];
@@ -188,6 +193,7 @@ void OverlayMap::fill(int slot, const RingTriangle& triangle) {
       const auto w = barycentric(flat_[v], ring_[triangle[0]], ring_[triangle[1]], ring_[triangle[2]]);
       place_[v] = {slot, -1, -1, w[1], w[2]};
     }
+  }
 }
 
 /// Takes added vertices that lie on no edge of the complex any more out again.
@@ -262,11 +268,6 @@ bool OverlayMap::relax(int v) {
 
 void OverlayMap::settle(const Removal& removal) {
   complex_.replace(star_, removal.triangles, slots_);
-  for (int f : region_) {
-    const Triangle& t = refined_.corners(f);
-    if (!(chart_area(flat_[t[0]], flat_[t[1]], flat_[t[2]]) > 0.0))
-      throw Error(Cause::InvalidMap, "a piece of the surface has no area left", Element::Vertex, star_.center);
-  }
   for (std::size_t t = 0; t < removal.triangles.size(); ++t) fill(slots_[t], removal.triangles[t]);
   coarsen();
   for (int f : region_) piece_state_[f] = PieceState::Outside;

@@ -20,7 +20,8 @@ class OverlayMap {
  public:
   explicit OverlayMap(std::shared_ptr<const Surface> surface);
 
-  /// Fills the hole of the removed vertex. Throws Error(InvalidMap) where rounding has left a piece of the star no area.
+  /// Fills the hole of the removed vertex. Throws Error(InvalidMap) where a piece of the star would be too small for
+  /// rounding, and is of no use then.
   void remove(const Removal& removal);
 
   /// The map onto the present complex. The surface's own vertices come first, then those that cuts have added. O(V).

@@ -175,17 +175,24 @@ Mesh refined(Mesh mesh, const ParameterizeOptions& options, Progress& progress) 
 Start make_start(const Mesh& mesh, bool injective, const ParameterizeOptions& options, Progress& progress) {
   const auto surface = std::make_shared<const Surface>(refined(mesh, options, progress));
   Start start{simplify(surface, options, progress), {}};
-  const int left = start.simplified.atlas.base.vertex_count();
+  SimplifyResult& simplified = start.simplified;
+  if (injective) {
+    const std::size_t asked = simplified.removals.size();
+    start.injective = injective_map(surface, simplified.removals, progress);
+    if (simplified.removals.size() < asked) {
+      simplified.atlas = map_after(surface, simplified.removals);
+      simplified.omega.resize(simplified.removals.size());
+    }
+    const int added = start.injective.surface->mesh.vertex_count() - surface->mesh.vertex_count();
+    if (added > 0) progress.note(std::to_string(added) + " vertices were added where the map needs more freedom");
+    const Folds folds = repair_folds(start.injective, kRings, progress);
+    if (!folds.none()) give_up(folds);
+    start.injective.reassign_all();
+  }
+  const int left = simplified.atlas.base.vertex_count();
   if (options.base_vertices > 0 && left > options.base_vertices)
     progress.note("no further vertex can be removed: the base has " + std::to_string(left) + " vertices instead of " +
                   std::to_string(options.base_vertices));
-  if (!injective) return start;
-  start.injective = injective_map(surface, start.simplified.removals, progress);
-  const int added = start.injective.surface->mesh.vertex_count() - surface->mesh.vertex_count();
-  if (added > 0) progress.note(std::to_string(added) + " vertices were added where the map needs more freedom");
-  const Folds folds = repair_folds(start.injective, kRings, progress);
-  if (!folds.none()) give_up(folds);
-  start.injective.reassign_all();
   return start;
 }
 

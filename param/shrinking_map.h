@@ -53,4 +53,7 @@ class ShrinkingMap {
   std::vector<Complex> moving_flat_;
 };
 
+/// The map after some removals from the surface itself, which its vertices carry.
+Atlas map_after(std::shared_ptr<const Surface> surface, const std::vector<Removal>& removals);
+
 }  // namespace gsp

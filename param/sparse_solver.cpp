@@ -72,17 +72,19 @@ struct CholeskySolver::Factor {
   bool analysed = false;
 };
 
-CholeskySolver::CholeskySolver() : factor_(std::make_unique<Factor>()) {}
+CholeskySolver::CholeskySolver() : factor_(std::make_unique<Factor>()) {
+#ifdef GSP_SUITESPARSE
+  factor_->llt.cholmod().print = 0;  // it would write to standard output
+#endif
+}
 CholeskySolver::~CholeskySolver() = default;
 
-void CholeskySolver::factorize(const Eigen::SparseMatrix<double>& lower) {
+bool CholeskySolver::factorize(const Eigen::SparseMatrix<double>& lower) {
   use_one_blas_thread();
   if (!factor_->analysed) factor_->llt.analyzePattern(lower);
   factor_->analysed = true;
   factor_->llt.factorize(lower);
-  if (factor_->llt.info() != Eigen::Success)
-    throw Error(Cause::SolverFailed,
-                "the symmetric system of " + std::to_string(lower.rows()) + " unknowns was not factorized");
+  return factor_->llt.info() == Eigen::Success;
 }
 
 Eigen::VectorXd CholeskySolver::solve(const Eigen::VectorXd& b) const { return factor_->llt.solve(b); }

@@ -25,8 +25,8 @@ class CholeskySolver {
  public:
   CholeskySolver();
   ~CholeskySolver();
-  /// `lower`: its lower triangle. Throws Error(SolverFailed) where it is not positive definite.
-  void factorize(const Eigen::SparseMatrix<double>& lower);
+  /// `lower`: its lower triangle. False where it is not positive definite to working precision.
+  bool factorize(const Eigen::SparseMatrix<double>& lower);
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
  private:

@@ -1,5 +1,6 @@
 #include "param/valid_map.h"
 
+#include "mesh/error.h"
 #include "param/overlay.h"
 
 namespace gsp {
@@ -8,13 +9,21 @@ namespace {
 constexpr std::size_t kReportEvery = 1024;
 }
 
-Atlas injective_map(std::shared_ptr<const Surface> surface, const std::vector<Removal>& removals, Progress& progress) {
-  OverlayMap map(std::move(surface));
-  for (std::size_t i = 0; i < removals.size(); ++i) {
-    if (i % kReportEvery == 0) progress.report("map without folds", double(i) / removals.size());
-    map.remove(removals[i]);
+Atlas injective_map(std::shared_ptr<const Surface> surface, std::vector<Removal>& removals, Progress& progress) {
+  while (true) {
+    OverlayMap map(surface);
+    std::size_t done = 0;
+    try {
+      for (; done < removals.size(); ++done) {
+        if (done % kReportEvery == 0) progress.report("map without folds", double(done) / removals.size());
+        map.remove(removals[done]);
+      }
+      return map.coarsened();
+    } catch (const Error& error) {
+      if (error.cause() != Cause::InvalidMap) throw;
+      removals.resize(done);
+    }
   }
-  return map.coarsened();
 }
 
 }  // namespace gsp

@@ -9,10 +9,10 @@
 
 namespace gsp {
 
-/// A map onto the base complex without folds, on a surface that has vertices added where the map needs them. Makes the
-/// removals once more, carrying a homeomorphism (`OverlayMap`), and takes out the vertices it can do without. Pieces too
-/// small for rounding may be left folded where the surface is degenerate, so ask `find_folds`. Throws Error(InvalidMap,
-/// Cancelled).
-Atlas injective_map(std::shared_ptr<const Surface> surface, const std::vector<Removal>& removals, Progress& progress);
+/// Maps a surface without folds onto the complex that the removals leave, on a surface that has vertices added where the map
+/// needs them: carries a homeomorphism (`OverlayMap`) through the removals and takes out the vertices it can do without.
+/// Where a removal would leave pieces too small for rounding, it and all after it are dropped from `removals`.
+/// Throws Error(Cancelled).
+Atlas injective_map(std::shared_ptr<const Surface> surface, std::vector<Removal>& removals, Progress& progress);
 
 }  // namespace gsp

@@ -14,7 +14,7 @@ namespace {
 /// Cones on a sphere, so that stars are flattened far from isometrically.
 Mesh spiky_sphere(int level) {
   Mesh mesh = shapes::sphere(level);
-  for (std::size_t v = 0; v < mesh.positions.size(); v += 5) mesh.positions[v] *= 1.0 + 0.1 * double(v % 7);
+  for (std::size_t v = 0; v < mesh.positions.size(); v += 5) mesh.positions[v] *= 1.0 + 0.05 * double(v % 7);
   return mesh;
 }
 
