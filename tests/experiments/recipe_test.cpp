@@ -34,8 +34,8 @@ bool says(const std::string& text, const std::string& part) { return text.find(p
 
 std::vector<double> gammas(const std::string& values) {
   std::vector<double> found;
-  for (const CellOptions& cell : recipe_of("models = [\"shape:torus\"]\ngamma = " + values).blocks.front().cells)
-    found.push_back(cell.parameterize.gamma);
+  const Recipe recipe = recipe_of("models = [\"shape:torus\"]\ngamma = " + values);
+  for (const CellOptions& cell : recipe.blocks.front().cells) found.push_back(cell.parameterize.gamma);
   return found;
 }
 
