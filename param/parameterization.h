@@ -28,6 +28,11 @@ struct Parameterization {
   std::vector<std::string> provenance;
 };
 
+/// Vertices and faces of the input, before further ones were added where the map needs them: of the provenance
+/// ("input_vertices N", "input_faces N"), or those of the surface where it does not say.
+int input_vertex_count(const Parameterization& map);
+int input_face_count(const Parameterization& map);
+
 /// What `check_map` found. A map is valid where all of these hold.
 struct MapCheck {
   int flipped_faces = 0;     ///< faces with no positive area in their chart

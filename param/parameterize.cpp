@@ -42,7 +42,8 @@ void check_options(const ParameterizeOptions& options) {
   if (options.relaxations < 0) throw Error(Cause::BadOption, "the number of relaxations must not be negative");
 }
 
-std::vector<std::string> provenance(const ParameterizeOptions& options, Method method, const Atlas& atlas) {
+std::vector<std::string> provenance(const Mesh& input, const ParameterizeOptions& options, Method method,
+                                    const Atlas& atlas) {
   const auto line = [](const char* key, auto value) {
     std::ostringstream text;
     text << key << ' ' << std::setprecision(17) << value;
@@ -51,7 +52,8 @@ std::vector<std::string> provenance(const ParameterizeOptions& options, Method m
   return {line("method", method_name(method)),         line("base_vertices", atlas.base.vertex_count()),
           line("base_vertices_asked", options.base_vertices), line("gamma", options.gamma),
           line("mu", options.mu),                      line("relaxations", options.relaxations),
-          line("objective", objective_name(options.objective))};
+          line("objective", objective_name(options.objective)),
+          line("input_vertices", input.vertex_count()), line("input_faces", input.face_count())};
 }
 
 [[noreturn]] void give_up(const Folds& folds) {
@@ -196,12 +198,12 @@ Start make_start(const Mesh& mesh, bool injective, const ParameterizeOptions& op
   return start;
 }
 
-ParameterizeResult finish(const Start& start, Method method, const ParameterizeOptions& options,
+ParameterizeResult finish(const Mesh& input, const Start& start, Method method, const ParameterizeOptions& options,
                           Progress& progress) {
   ParameterizeResult result;
   Atlas atlas = method == Method::Gsp ? smooth_map(start, options, result, progress) : start.simplified.atlas;
   if (method == Method::MapsSmoothed) smooth_by_loop(atlas, progress);
-  result.map = atlas.finish(provenance(options, method, atlas));
+  result.map = atlas.finish(provenance(input, options, method, atlas));
   if (method == Method::Gsp) {
     const MapCheck check = check_map(result.map);
     if (!check.valid()) {
@@ -238,7 +240,7 @@ std::vector<ParameterizeResult> parameterize_all(const Mesh& mesh, const std::ve
   const Start start = make_start(mesh, injective, options, progress);
   std::vector<ParameterizeResult> results;
   for (Method method : methods) {
-    results.push_back(finish(start, method, options, progress));
+    results.push_back(finish(mesh, start, method, options, progress));
     results.back().omega = start.simplified.omega;
   }
   return results;

@@ -18,7 +18,7 @@ int chosen_level(const Parameterization& map, const RemeshOptions& options) {
   if (level == RemeshOptions::kAutoLevel) {
     level = 0;
     while (level < kMaxSubdivisionLevel && (static_cast<long long>(map.base.face_count()) << (2 * level)) <
-                                               static_cast<long long>(map.surface.face_count()))
+                                               static_cast<long long>(input_face_count(map)))
       ++level;
   }
   if (level < 0 || level > kMaxSubdivisionLevel)
