@@ -150,15 +150,6 @@ std::array<Complex, 3> Atlas::face_corners(int face, const FaceFrame& frame) con
           frame.to_chart[2].apply(position[t[2]])};
 }
 
-int Atlas::flipped_faces() const {
-  int flipped = 0;
-  for (int f = 0; f < surface->mesh.face_count(); ++f) {
-    const auto z = face_corners(f, face_frame(f));
-    flipped += !(chart_area(z[0], z[1], z[2]) > 0.0);
-  }
-  return flipped;
-}
-
 int Atlas::broken_faces() const {
   int broken = 0;
   for (int f = 0; f < surface->mesh.face_count(); ++f) {

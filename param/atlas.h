@@ -27,6 +27,8 @@ struct BaseFan {
   const Sector& sector(int s) const;
   /// The sector in which `face` lies, -1 if the face is not around the vertex.
   int find(int face) const;
+  /// From the chart of a face around the vertex to that of sector 0, by the way about the vertex.
+  Transition to_first_sector(int face) const { return develop(0).inverse() * develop(find(face)); }
 };
 
 std::vector<BaseFan> base_fans(const BaseComplex& base);
@@ -74,9 +76,6 @@ class Atlas {
   };
   FaceFrame face_frame(int face) const;
   std::array<Complex, 3> face_corners(int face, const FaceFrame& frame) const;
-
-  /// Number of faces with no positive area in their chart.
-  int flipped_faces() const;
 
   /// Number of faces without patch corners around which the transitions do not compose to the identity: 0 always holds.
   int broken_faces() const;

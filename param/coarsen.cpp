@@ -31,10 +31,7 @@ class Coarsener {
       return std::pair(transition_[out].apply(position_[refined_.to(out)]),
                        transition_[back].inverse().apply(position_[refined_.from(back)]));
     };
-    int along = -1;
-    refined_.for_each_outgoing(v, [&](int h) {
-      if (along < 0 && refined_.can_collapse(h) && refined_.draws_well(h, position_[v], link)) along = h;
-    });
+    const int along = refined_.collapsible(v, position_[v], link);
     if (along < 0) return false;
     const Transition to_v = transition_[along], from_v = to_v.inverse();
     refined_.for_each_outgoing(v, [&](int out) {

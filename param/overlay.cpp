@@ -155,6 +155,12 @@ void OverlayMap::straighten_boundary() {
     }
 }
 
+/// How far along the new edge on which v lies a place is, 0 to 1 from its `a` to its `b`.
+double OverlayMap::share_on_edge(int v, Complex at) const {
+  const Complex a = ring_[ring_index_[place_[v].a]], b = ring_[ring_index_[place_[v].b]];
+  return std::real((at - a) / (b - a));
+}
+
 /// Gives the pieces inside one new triangle to it.
 void OverlayMap::fill(int slot, const RingTriangle& triangle) {
   const int corner[3] = {star_.ring[triangle[0]], star_.ring[triangle[1]], star_.ring[triangle[2]]};
@@ -186,8 +192,7 @@ void OverlayMap::fill(int slot, const RingTriangle& triangle) {
     for (int v : t) {
       if (hold_[v] == Hold::Ring) continue;
       if (hold_[v] == Hold::Edge) {
-        const Complex a = ring_[ring_index_[place_[v].a]], b = ring_[ring_index_[place_[v].b]];
-        place_[v].weight1 = std::real((flat_[v] - a) / (b - a));
+        place_[v].weight1 = share_on_edge(v, flat_[v]);
         continue;
       }
       const auto w = barycentric(flat_[v], ring_[triangle[0]], ring_[triangle[1]], ring_[triangle[2]]);
@@ -203,10 +208,7 @@ void OverlayMap::coarsen() {
     const auto link = [&](int out) {
       return std::pair(flat_[refined_.to(out)], flat_[refined_.from(Halfedges::prev(out))]);
     };
-    int along = -1;
-    refined_.for_each_outgoing(v, [&](int h) {
-      if (along < 0 && refined_.can_collapse(h) && refined_.draws_well(h, flat_[v], link)) along = h;
-    });
+    const int along = refined_.collapsible(v, flat_[v], link);
     if (along >= 0) refined_.collapse(along);
   }
 }
@@ -254,7 +256,7 @@ bool OverlayMap::relax(int v) {
   middle /= neighbours;
   if (hold_[v] == Hold::Edge) {  // along its edge only
     const Complex a = ring_[ring_index_[place_[v].a]], b = ring_[ring_index_[place_[v].b]];
-    middle = a + std::real((middle - a) / (b - a)) * (b - a);
+    middle = a + share_on_edge(v, middle) * (b - a);
   }
   const double before = least_quality(v, flat_[v]);
   for (double step = 1.0; step > 0.1; step *= 0.5) {
@@ -302,10 +304,7 @@ Complex OverlayMap::home_position(const Atlas& atlas, int v, const Place& at) {
 
 /// From a chart to the home chart of a vertex of that chart.
 Transition OverlayMap::to_home(const Atlas& atlas, int v, int chart, const Place& at) {
-  if (atlas.corner[v] >= 0) {
-    const BaseFan& fan = atlas.fans[atlas.corner[v]];
-    return fan.develop(0).inverse() * fan.develop(fan.find(chart));
-  }
+  if (atlas.corner[v] >= 0) return atlas.fans[atlas.corner[v]].to_first_sector(chart);
   if (atlas.patch[v] == chart) return {};
   for (int k = 0; k < 3; ++k)
     if (atlas.base.twins[3 * chart + k] >= 0 && atlas.base.twins[3 * chart + k] / 3 == atlas.patch[v] &&

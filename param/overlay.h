@@ -51,6 +51,7 @@ class OverlayMap {
   int next_on_cut(int at, int j);
   bool move_onto_cut(int v, Complex to, double share);
   void straighten_boundary();
+  double share_on_edge(int v, Complex at) const;
   void settle(const Removal& removal);
   void fill(int slot, const RingTriangle& triangle);
   static double quality(Complex a, Complex b, Complex c);

@@ -59,20 +59,16 @@ class RefinedSurface {
   /// Does so: the two faces beside h die, in the others around from(h) to(h) takes its place.
   void collapse(int h);
 
-  /// Whether collapsing h leaves a map into the plane upright, with pieces thick enough or hardly thinner than those before.
-  /// from(h) lies at `center`, and link(out) gives the two other corners, in order, of the face of a half-edge `out` that
-  /// leaves it.
+  /// A half-edge along which v can be collapsed such that a map into the plane stays upright, its pieces thick enough or
+  /// hardly thinner than before; -1 where there is none. v lies at `center`, and link(out) gives the two other corners, in
+  /// order, of the face of a half-edge `out` that leaves it.
   template <class Link>
-  bool draws_well(int h, Complex center, Link&& link) const {
-    const int n = to(h);
-    double before = 1.0, after = 1.0;
-    const Complex goal = link(h).first;
-    for_each_outgoing(from(h), [&](int out) {
-      const auto [x, y] = link(out);
-      before = std::min(before, thickness(center, x, y));
-      if (to(out) != n && from(Halfedges::prev(out)) != n) after = std::min(after, thickness(goal, x, y));
+  int collapsible(int v, Complex center, Link&& link) const {
+    int along = -1;
+    for_each_outgoing(v, [&](int h) {
+      if (along < 0 && can_collapse(h) && draws_well(h, center, link)) along = h;
     });
-    return after > std::min(kThin, kWorse * before);
+    return along;
   }
 
   struct Compact {
@@ -87,6 +83,19 @@ class RefinedSurface {
     int edge = -1, face = -1;      ///< both -1 for an original vertex
     std::array<double, 2> weight{};  ///< share along the edge's direction; weights of the face's corners 1 and 2
   };
+
+  template <class Link>
+  bool draws_well(int h, Complex center, Link&& link) const {
+    const int n = to(h);
+    double before = 1.0, after = 1.0;
+    const Complex goal = link(h).first;
+    for_each_outgoing(from(h), [&](int out) {
+      const auto [x, y] = link(out);
+      before = std::min(before, thickness(center, x, y));
+      if (to(out) != n && from(Halfedges::prev(out)) != n) after = std::min(after, thickness(goal, x, y));
+    });
+    return after > std::min(kThin, kWorse * before);
+  }
 
   bool boundary(int v) const { return !added(v) && original_->halfedges.boundary_vertex(v); }
   std::array<double, 3> weights_in(int v, int original_face) const;

@@ -12,8 +12,7 @@ namespace {
 /// From a face around a corner to the corner's own chart.
 Transition to_home(const Atlas& atlas, int vertex, int face) {
   if (atlas.corner[vertex] < 0) return {};
-  const BaseFan& fan = atlas.fans[atlas.corner[vertex]];
-  return fan.develop(0).inverse() * fan.develop(fan.find(face));
+  return atlas.fans[atlas.corner[vertex]].to_first_sector(face);
 }
 
 }  // namespace
