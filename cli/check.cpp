@@ -19,7 +19,7 @@ struct BaselineOptions {
   std::string run, recipe, output;
 };
 
-struct Options {
+struct CheckArguments {
   std::string run, recipe, baseline, junit;
   bool ignore_times = false;
 };
@@ -56,7 +56,7 @@ Json check_json(const CheckResult& result) {
   return moved;
 }
 
-int run_check(const Options& options, Context& context) {
+int run_check(const CheckArguments& options, Context& context) {
   const Baseline baseline = read_baseline(options.baseline);
   const Baseline run = baseline_of_run(options.run, options.recipe);
   const CheckResult result = check(baseline, run, {.times = !options.ignore_times});
@@ -92,7 +92,7 @@ void add_baseline(CLI::App& app, Context& context) {
 
 void add_check(CLI::App& app, Context& context) {
   Command command(app, context, "check", "hold a sweep to a baseline; exit status 1 on a regression, rows named");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CheckArguments>();
   command.argument("RUN", options->run, "folder of a sweep");
   command.required_option("--baseline", "FILE", options->baseline, "what gsp baseline wrote");
   command.optional_text("--recipe", "NAME", options->recipe, "of the recipes in the folder [the latest]");

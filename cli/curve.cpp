@@ -15,7 +15,7 @@ namespace gsp::cli {
 
 namespace {
 
-struct Options {
+struct CurveArguments {
   std::vector<std::string> meshes;
   std::string output;
   std::vector<std::string> methods = {"gsp", "maps-smoothed"};
@@ -24,7 +24,7 @@ struct Options {
   CurveOptions curve;
 };
 
-int run_curve(Options& options, Context& context) {
+int run_curve(CurveArguments& options, Context& context) {
   Progress progress = context.console.progress();
   options.curve.methods.clear();
   for (const std::string& word : options.methods) options.curve.methods.push_back(method_of(word));
@@ -45,7 +45,7 @@ int run_curve(Options& options, Context& context) {
 
 void add_curve(CLI::App& app, Context& context) {
   Command command(app, context, "curve", "the main job: rate-distortion curves of surfaces");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CurveArguments>();
   command.arguments("MESH", options->meshes, "surfaces, or folders of them: PLY, OBJ, OFF, STL");
   command.output("DIR", options->output, "folder for curve.csv and the figures");
   command.choices("--methods", options->methods, map_method_words(), "maps to compare on one base complex");

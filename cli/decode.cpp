@@ -15,7 +15,7 @@ namespace gsp::cli {
 
 namespace {
 
-struct Options {
+struct DecodeArguments {
   std::string stream, output;
   std::size_t bytes = 0;
 };
@@ -28,7 +28,7 @@ Bytes read_bytes(const std::string& path) {
   return bytes;
 }
 
-int run_decode(const Options& options, Context& context) {
+int run_decode(const DecodeArguments& options, Context& context) {
   const Bytes stream = read_bytes(options.stream);
   const std::size_t budget = options.bytes == 0 ? stream.size() : std::min(options.bytes, stream.size());
   const SemiregularMesh mesh = decode(stream, budget);
@@ -43,7 +43,7 @@ int run_decode(const Options& options, Context& context) {
 
 void add_decode(CLI::App& app, Context& context) {
   Command command(app, context, "decode", "the mesh of a stream, or of a prefix of it");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DecodeArguments>();
   command.argument("STREAM", options->stream, "stream: *.pgc");
   command.output("MESH", options->output, "the mesh, *.sr.ply");
   command.size("--bytes", options->bytes, 0, std::numeric_limits<std::size_t>::max(),

@@ -15,7 +15,7 @@ namespace gsp::cli {
 
 namespace {
 
-struct Options {
+struct DistanceArguments {
   std::string a, b, per_vertex;
   DistanceOptions distance;
   double hausdorff_tolerance = 0.0;
@@ -24,7 +24,7 @@ struct Options {
 
 /// Both surfaces and their trees, each built once for all that is measured.
 struct Pair {
-  explicit Pair(const Options& options) : a(read_mesh(options.a)), b(read_mesh(options.b)), tree_a(a), tree_b(b) {}
+  explicit Pair(const DistanceArguments& options) : a(read_mesh(options.a)), b(read_mesh(options.b)), tree_a(a), tree_b(b) {}
   Mesh a, b;
   SurfaceTree tree_a, tree_b;
 };
@@ -70,7 +70,7 @@ void write_per_vertex(const std::string& path, const Pair& pair, const SurfaceDi
                        {0.0, distance.forward.quantile95});
 }
 
-int run_distance(const Options& options, Context& context) {
+int run_distance(const DistanceArguments& options, Context& context) {
   Progress progress = context.console.progress();
   const Pair pair(options);
   const SurfaceDistance d = surface_distance(pair.a, pair.tree_a, pair.b, pair.tree_b, options.distance, progress);
@@ -109,7 +109,7 @@ int run_distance(const Options& options, Context& context) {
 
 void add_distance(CLI::App& app, Context& context) {
   Command command(app, context, "distance", "how far two surfaces are apart, both ways");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DistanceArguments>();
   command.argument("A", options->a, "reference surface; distances are in its units");
   command.argument("B", options->b, "the other surface");
   command.sampling_options(options->distance.samples, options->distance.seed);

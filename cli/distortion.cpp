@@ -15,7 +15,7 @@ namespace gsp::cli {
 
 namespace {
 
-struct Options {
+struct DistortionArguments {
   std::string map, per_face, picture;
   std::string colour = "anisotropy";
 };
@@ -51,7 +51,7 @@ void write_csv(const std::string& path, const std::vector<MapMeasure>& measures)
 }
 
 /// The chosen measure first, since that is the one that colours.
-void write_picture(const Options& options, const Mesh& surface, std::vector<MapMeasure> measures) {
+void write_picture(const DistortionArguments& options, const Mesh& surface, std::vector<MapMeasure> measures) {
   const auto chosen =
       std::find_if(measures.begin(), measures.end(), [&](const auto& m) { return m.column.name == options.colour; });
   std::rotate(measures.begin(), chosen, chosen + 1);
@@ -60,7 +60,7 @@ void write_picture(const Options& options, const Mesh& surface, std::vector<MapM
   write_face_picture(options.picture, surface, columns, measures.front().scale);
 }
 
-int run_distortion(const Options& options, Context& context) {
+int run_distortion(const DistortionArguments& options, Context& context) {
   const Parameterization map = read_parameterization(options.map);
   const Distortion d = distortion(map);
   const Smoothness s = smoothness(map);
@@ -91,7 +91,7 @@ int run_distortion(const Options& options, Context& context) {
 
 void add_distortion(CLI::App& app, Context& context) {
   Command command(app, context, "distortion", "how much a map stretches, how smooth it is, and whether it folds");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DistortionArguments>();
   command.argument("MAP", options->map, "map: *.param.ply");
   command.optional_file("--per-face", options->per_face, "also write every face's measures as CSV");
   command.optional_file("--picture", options->picture, "also write the surface as PLY with every face's measures and a colour");

@@ -13,7 +13,7 @@ namespace gsp::cli {
 
 namespace {
 
-struct Options {
+struct EncodeArguments {
   std::string mesh, output;
   // Ahead of Loop on the paper's models by 0.4 dB, on rougher maps by more (bench/README.md).
   std::string wavelet = wavelet_name(Wavelet::ButterflyLifted);
@@ -39,7 +39,7 @@ Json parts_report(const StreamParts& parts) {
   return report;
 }
 
-int run_encode(const Options& options, Context& context) {
+int run_encode(const EncodeArguments& options, Context& context) {
   Progress progress = context.console.progress();
   const SemiregularMesh mesh = read_or_recover(options.mesh);
   EncodeOptions encode_options = options.encode;
@@ -70,7 +70,7 @@ int run_encode(const Options& options, Context& context) {
 
 void add_encode(CLI::App& app, Context& context) {
   Command command(app, context, "encode", "a semi-regular mesh as an embedded stream");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<EncodeArguments>();
   command.argument("MESH", options->mesh, "semi-regular mesh: *.sr.ply, or any mesh with subdivision connectivity");
   command.output("STREAM", options->output, "the stream, *.pgc");
   command.encode_options(options->wavelet, options->encode);

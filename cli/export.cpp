@@ -10,12 +10,12 @@ namespace gsp::cli {
 
 namespace {
 
-struct Options {
+struct ExportArguments {
   std::string run, recipe, output;
   std::string format = "csv";
 };
 
-int run_export(const Options& options, Context& context) {
+int run_export(const ExportArguments& options, Context& context) {
   const Store store = Store::open(options.run);
   const std::string recipe = store.plan(options.recipe).recipe;
   print_report(
@@ -28,7 +28,7 @@ int run_export(const Options& options, Context& context) {
 
 void add_export(CLI::App& app, Context& context) {
   Command command(app, context, "export", "a sweep's curves for other tools");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportArguments>();
   command.argument("RUN", options->run, "folder of a sweep");
   command.output("DIR", options->output, "folder for the files");
   command.choice("--format", options->format, export_format_words(), "what they are to be read by");

@@ -14,14 +14,14 @@ namespace gsp::cli {
 
 namespace {
 
-struct Options {
+struct ParameterizeArguments {
   std::string mesh, output, omega_csv;
   std::string method = "gsp";
   ParameterizeOptions parameterize;
   bool check = false;
 };
 
-int run_parameterize(Options& options, Context& context) {
+int run_parameterize(ParameterizeArguments& options, Context& context) {
   Progress progress = context.console.progress();
   options.parameterize.method = method_of(options.method);
   const Mesh mesh = read_mesh(options.mesh);
@@ -53,7 +53,7 @@ int run_parameterize(Options& options, Context& context) {
 
 void add_parameterize(CLI::App& app, Context& context) {
   Command command(app, context, "parameterize", "a globally smooth map of a surface onto a base complex");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ParameterizeArguments>();
   command.argument("MESH", options->mesh, "surface: PLY, OBJ, OFF or STL");
   command.output("MAP", options->output, "the map, *.param.ply");
   command.choice("--method", options->method, map_method_words(), "the paper's map, or a baseline on the same base");

@@ -11,7 +11,7 @@ namespace gsp::cli {
 
 namespace {
 
-struct Options {
+struct PictureArguments {
   std::string surface, output, what = subject_name(Subject::Patches);
   PictureOptions picture;
 };
@@ -28,7 +28,7 @@ Subject subject_of(const std::string& word) {
   throw Error(Cause::BadOption, "unknown subject " + word);
 }
 
-int run_picture(Options& options, Context& context) {
+int run_picture(PictureArguments& options, Context& context) {
   Progress progress = context.console.progress();
   options.picture.subject = subject_of(options.what);
   const Picture picture = file_picture(options.surface, options.picture, progress);
@@ -44,7 +44,7 @@ int run_picture(Options& options, Context& context) {
 
 void add_picture(CLI::App& app, Context& context) {
   Command command(app, context, "picture", "a surface or map as PNG: patches, iso-lines, distortion, remesh, distance");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PictureArguments>();
   command.argument("FILE", options->surface, "map (*.param.ply), semi-regular mesh (*.sr.ply) or any surface");
   command.output("PNG", options->output, "the picture");
   command.choice("--what", options->what, subject_words(),

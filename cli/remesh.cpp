@@ -13,14 +13,14 @@ namespace gsp::cli {
 
 namespace {
 
-struct Options {
+struct RemeshArguments {
   std::string map, output;
   std::string kind = "parametric";
   RemeshOptions remesh;
   double max_error = 0.0;
 };
 
-int run_remesh(const Options& options, Context& context) {
+int run_remesh(const RemeshArguments& options, Context& context) {
   Progress progress = context.console.progress();
   const Parameterization map = read_parameterization(options.map);
   const SemiregularMesh result = options.max_error > 0.0 ? remesh_to_error(map, options.max_error, progress)
@@ -39,7 +39,7 @@ int run_remesh(const Options& options, Context& context) {
 
 void add_remesh(CLI::App& app, Context& context) {
   Command command(app, context, "remesh", "a semi-regular mesh sampled through a map");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RemeshArguments>();
   command.argument("MAP", options->map, "map: *.param.ply");
   command.output("MESH", options->output, "the mesh, *.sr.ply");
   command.level_option(options->remesh);

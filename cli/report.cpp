@@ -10,13 +10,13 @@ namespace gsp::cli {
 
 namespace {
 
-struct Options {
+struct ReportArguments {
   std::string run, output;
   bool no_figures = false;
   ReportOptions report;
 };
 
-int run_report(Options& options, Context& context) {
+int run_report(ReportArguments& options, Context& context) {
   Progress progress = context.console.progress();
   options.report.figures = !options.no_figures;
   const ReportResult result = make_report(options.run, options.output, options.report, progress);
@@ -36,7 +36,7 @@ int run_report(Options& options, Context& context) {
 void add_report(CLI::App& app, Context& context) {
   Command command(app, context, "report",
                   "a page that answers what a run was for: sentences, curves, surfaces, figures");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportArguments>();
   command.argument("RUN", options->run, "store of gsp sweep, or folder of gsp curve");
   command.output("DIR", options->output, "folder for index.html, which opens from disk, and what it shows");
   command.text("--recipe", options->report.recipe, "of a store with several", "the latest");

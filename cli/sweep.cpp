@@ -19,7 +19,7 @@ namespace gsp::cli {
 
 namespace {
 
-struct Options {
+struct SweepArguments {
   std::string recipe, store;
   std::vector<std::string> models;
   bool dry_run = false, status = false;
@@ -65,7 +65,7 @@ void print_cells(Context& context, const std::vector<StoredCell>& cells, const J
   if (!further.empty()) print_text(context.out, further);
 }
 
-int run_sweep(Options& options, Context& context) {
+int run_sweep(SweepArguments& options, Context& context) {
   const Recipe recipe = read_recipe(options.recipe, options.models);
   if (options.dry_run || options.status) {
     Json further = Json::object();
@@ -108,7 +108,7 @@ int run_worker(const WorkerOptions& options, Context& context) {
 
 void add_sweep(CLI::App& app, Context& context) {
   Command command(app, context, "sweep", "run all cells of a recipe, resuming what an earlier run left");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SweepArguments>();
   constexpr int kMostJobs = 1024;
   command.argument("RECIPE", options->recipe, "what to vary, TOML (experiments/recipes has some)");
   command.required_option("--store", "DIR", options->store, "folder for the results");

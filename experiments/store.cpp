@@ -11,7 +11,7 @@ namespace gsp {
 
 namespace {
 
-using Json = nlohmann::json;
+using SortedJson = nlohmann::json;
 
 constexpr int kSchemaVersion = 1;
 
@@ -186,7 +186,7 @@ struct Store::Impl {
   void put_one(const StageResult& r) {
     database.prepare("INSERT OR REPLACE INTO stage VALUES(?,?,?,?,?,?,?,?,?,?,?)")
         ->run(r.key, std::string(stage_name(r.kind)), r.input, r.options, r.version, r.cause, r.failure,
-              Json(r.numbers).dump(), r.seconds, r.cpu_seconds, r.reference_seconds);
+              SortedJson(r.numbers).dump(), r.seconds, r.cpu_seconds, r.reference_seconds);
     forget_details(r.key);
     const auto artefact = database.prepare("INSERT INTO artefact VALUES(?,?,?)");
     for (const auto& [role, path] : r.artefacts) artefact->run(r.key, role, path);
@@ -281,7 +281,7 @@ std::map<std::string, StageResult> Store::results() const {
     r.version = stage->text(4);
     r.cause = stage->text(5);
     r.failure = stage->text(6);
-    const Json numbers = Json::parse(stage->text(7), nullptr, false);
+    const SortedJson numbers = SortedJson::parse(stage->text(7), nullptr, false);
     for (const auto& [name, value] : numbers.items())
       if (value.is_number()) r.numbers[name] = value.get<double>();
     r.seconds = stage->real(8);

@@ -16,8 +16,8 @@ constexpr double kAreaWeight = 0.02;
 constexpr std::size_t kLargestDisc = 500;  // vertices
 constexpr int kOuterSteps = 12;
 constexpr double kSharpening = 0.5;  // of ε, from one step to the next
-constexpr double kGain = 0.9;  // of the least determinant, below which a step has gained nothing;
-constexpr int kPatience = 3;   // so often in a row it gives up
+constexpr double kDeterminantGain = 0.9;  // of the least determinant, below which a step has gained nothing;
+constexpr int kIdleSteps = 3;   // so often in a row it gives up
 constexpr int kInnerSteps = 50;
 constexpr int kLastSteps = 30;
 
@@ -48,13 +48,13 @@ void minimise(const DistortionEnergy& energy, double epsilon, int steps, std::ve
 bool drive_apart(const DistortionEnergy& energy, std::vector<double>& x) {
   double least = energy.least_determinant(x), epsilon = 1.0;
   int idle = 0;
-  for (int step = 0; step < kOuterSteps && idle < kPatience && !(least > 0.0); ++step) {
+  for (int step = 0; step < kOuterSteps && idle < kIdleSteps && !(least > 0.0); ++step) {
     const double before = least;
     // As Garanzha et al. choose it, but never slower than geometrically: a step that gains nothing sharpens the barrier.
     epsilon = std::max(std::min(kSharpening * epsilon, std::sqrt(1e-18 + 0.04 * least * least)), 1e-7);
     minimise(energy, epsilon, kInnerSteps, x);
     least = energy.least_determinant(x);
-    idle = least > kGain * before ? 0 : idle + 1;
+    idle = least > kDeterminantGain * before ? 0 : idle + 1;
   }
   if (!(least > 0.0)) return false;
   const std::vector<double> valid = x;

@@ -1,12 +1,12 @@
 #include "coder/codec.h"
 
 #include <catch2/catch.hpp>
-#include <functional>
 #include <limits>
 
 #include "coder/base_connectivity.h"
 #include "coder/coded_order.h"
 #include "coder/local_frames.h"
+#include "tests/cause_of.h"
 #include "tests/coder/sample_meshes.h"
 
 using namespace gsp;
@@ -14,15 +14,6 @@ using namespace gsp;
 namespace {
 
 Progress silent;
-
-Cause cause_of(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const Error& error) {
-    return error.cause();
-  }
-  return Cause::Internal;
-}
 
 /// RMS over vertices between a mesh and its decoded form, which is in coded order.
 double rms_error(const SemiregularMesh& mesh, const SemiregularMesh& decoded) {

@@ -12,7 +12,7 @@ using namespace gsp;
 namespace {
 
 /// A flat disc of equilateral base triangles around one corner, mapped isometrically for six sectors.
-Parameterization hexagon(int level, double jitter = 0.19) {
+Parameterization jittered_hexagon(int level, double jitter = 0.19) {
   const Mesh base = shapes::sector_disc(6, 0);
   Parameterization map = exact_maps::quadrisected(base, level);
   exact_maps::jitter(map, jitter, level, 3);
@@ -31,7 +31,7 @@ Parameterization rhombus(int level) {
 }  // namespace
 
 TEST_CASE("linear maps are smooth everywhere, however they are triangulated and charted") {
-  Parameterization map = hexagon(3);
+  Parameterization map = jittered_hexagon(3);
   exact_maps::rechart(map, 5);
   const Eigen::Matrix3d stretch = Eigen::AngleAxisd(1.1, Vec3(1, 1, 0).normalized()).toRotationMatrix() *
                                   Vec3(3.0, 1.0, 1.0).asDiagonal();
@@ -96,7 +96,7 @@ TEST_CASE("the unit of the surface, its place and the numbering do not matter") 
 }
 
 TEST_CASE("degenerate faces and empty maps leave finite numbers") {
-  Parameterization map = hexagon(2);
+  Parameterization map = jittered_hexagon(2);
   map.face_corners[5] = {Complex(0, 0), Complex(1, 0), Complex(2, 0)};
   map.surface.positions[map.surface.faces[9][0]] = map.surface.positions[map.surface.faces[9][1]];
   const Smoothness s = smoothness(map);

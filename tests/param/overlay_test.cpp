@@ -24,13 +24,13 @@ Mesh degenerate_sphere(int level) {
   return mesh;
 }
 
-struct Case {
+struct Cut {
   const char* name;
   Mesh mesh;
   int base_vertices;
 };
 
-std::vector<Case> cases() {
+std::vector<Cut> cuts() {
   return {{"sphere", shapes::sphere(4), 4},           {"torus", shapes::torus(30, 12), 12},
           {"plane", shapes::grid(16, 12), 6},        {"spiky sphere", spiky_sphere(4), 12},
           {"degenerate sphere", degenerate_sphere(4), 12}};
@@ -57,7 +57,7 @@ void check_map_of(const Atlas& atlas, const Mesh& mesh) {
 }  // namespace
 
 TEST_CASE("the map is free of folds after every removal, whatever the surface") {
-  for (Case& c : cases()) {
+  for (Cut& c : cuts()) {
     INFO(c.name);
     split_boundary_chords(c.mesh);
     ParameterizeOptions options;

@@ -2,24 +2,15 @@
 
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <functional>
 
 #include "mesh/error.h"
 #include "mesh/io.h"
 #include "mesh/shapes.h"
+#include "tests/cause_of.h"
 
 using namespace gsp;
 
 namespace {
-
-Cause cause_of(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const Error& error) {
-    return error.cause();
-  }
-  return Cause::Internal;
-}
 
 /// Midpoint quadrisections of a plain mesh.
 SemiregularMesh flat_refinement(const Mesh& base, int level) {

@@ -1,25 +1,12 @@
 #include "remesh/semiregular.h"
 
 #include <catch2/catch.hpp>
-#include <functional>
 
 #include "mesh/error.h"
 #include "mesh/shapes.h"
+#include "tests/cause_of.h"
 
 using namespace gsp;
-
-namespace {
-
-Cause cause_of(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const Error& error) {
-    return error.cause();
-  }
-  return Cause::Internal;
-}
-
-}  // namespace
 
 TEST_CASE("quadrisection keeps the numbering rules at every level") {
   for (const Mesh& base : {shapes::tetrahedron(), shapes::torus(4, 3), shapes::grid(2, 3)}) {
