@@ -1,16 +1,51 @@
 #include "param/atlas.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace gsp {
 
 namespace {
 
-constexpr int kLongestWalk = 64;
+constexpr double kOnEdge = 1e-10;  // outside of a chart's triangle by less is rounding of a point on its edge
 
-double smallest_weight(Complex z) {
+bool inside(Complex z) {
   const auto w = chart_barycentric(z);
-  return std::min({w[0], w[1], w[2]});
+  return std::min({w[0], w[1], w[2]}) >= -kOnEdge;
+}
+
+/// Where a straight way leads.
+struct Arrival {
+  int chart;
+  Transition change;  ///< from the chart where the way starts
+};
+
+/// Follows the straight way between two points given in one chart, of which the first lies in the chart's triangle, across
+/// base edges until the second lies in the triangle too. Nothing where the way leaves the base.
+std::optional<Arrival> follow(const BaseComplex& base, int chart, Complex from, Complex to) {
+  Arrival at{chart, {}};
+  int entered = -1;  // edge of the chart by which the way came in
+  for (int step = 0; step <= base.face_count(); ++step) {
+    const auto start = chart_barycentric(at.change.apply(from)), end = chart_barycentric(at.change.apply(to));
+    // Edge k runs from corner k to k+1, opposite to corner k+2.
+    int crossed = -1;
+    double first = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const double before = start[(k + 2) % 3], after = end[(k + 2) % 3];
+      if (k == entered || after >= -kOnEdge) continue;
+      const double share = before / (before - after);
+      if (crossed >= 0 && share >= first) continue;
+      crossed = k;
+      first = share;
+    }
+    if (crossed < 0) return at;
+    const int side = 3 * at.chart + crossed;
+    if (base.twins[side] < 0) return std::nullopt;
+    at.change = base.across(side) * at.change;
+    at.chart = base.twins[side] / 3;
+    entered = base.twins[side] % 3;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -60,44 +95,29 @@ void Atlas::change_chart(int vertex, int chart, const Transition& change) {
 }
 
 bool Atlas::reassign(int vertex) {
-  Complex z = position[vertex];
-  if (smallest_weight(z) >= 0.0) return true;
-  int chart = patch[vertex], best_chart = chart;
-  Transition change, best_change;
-  double best = smallest_weight(z);
-  for (int step = 0; step < kLongestWalk; ++step) {
-    const auto w = chart_barycentric(z);
-    // Edge k runs from corner k to k+1, opposite to corner k+2.
-    int cross_edge = -1;
-    double most = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      const double outside = w[(k + 2) % 3];
-      if (outside < most && base.twins[3 * chart + k] >= 0) {
-        most = outside;
-        cross_edge = 3 * chart + k;
-      }
-    }
-    if (cross_edge < 0) break;
-    const Transition across = base.across(cross_edge);
-    change = across * change;
-    chart = base.twins[cross_edge] / 3;
-    z = across.apply(z);
-    if (smallest_weight(z) > best) {
-      best = smallest_weight(z);
-      best_chart = chart;
-      best_change = change;
-    }
-    if (best >= 0.0) break;
-  }
-  // Rounding can leave a point on a base edge outside of both sides by 1e-17: the better side is good enough.
-  if (best < -1e-9) return false;
-  if (best_chart != patch[vertex] || !best_change.is_identity()) change_chart(vertex, best_chart, best_change);
-  return true;
+  const Complex z = position[vertex];
+  if (inside(z)) return true;
+  bool found = false;
+  surface->for_each_neighbour(vertex, [&](int w, int edge, bool forward) {
+    if (found || corner[w] >= 0 || !inside(position[w])) return;
+    const Transition to_neighbour = towards(edge, forward).inverse();
+    const auto arrival = follow(base, patch[w], position[w], to_neighbour.apply(z));
+    if (!arrival) return;
+    change_chart(vertex, arrival->chart, arrival->change * to_neighbour);
+    found = true;
+  });
+  return found;
 }
 
-void Atlas::reassign_all() {
+int Atlas::reassign_all() {
+  std::vector<int> outside;
   for (int v = 0; v < static_cast<int>(patch.size()); ++v)
-    if (is_free(v)) reassign(v);
+    if (is_free(v) && !inside(position[v])) outside.push_back(v);
+  for (std::size_t before = outside.size() + 1; outside.size() < before;) {
+    before = outside.size();
+    outside.erase(std::remove_if(outside.begin(), outside.end(), [&](int v) { return reassign(v); }), outside.end());
+  }
+  return static_cast<int>(outside.size());
 }
 
 Atlas::FaceFrame Atlas::face_frame(int face) const {

@@ -61,12 +61,14 @@ class Atlas {
   /// Changes the chart of a vertex that is no corner; `change` maps the old chart to the new one.
   void change_chart(int vertex, int chart, const Transition& change);
 
-  /// Walks a vertex that lies outside its chart's triangle across base edges until it lies inside. Returns false, and
-  /// leaves the vertex as it was, where the walk leaves the base or turns around a corner without an end.
+  /// Gives a vertex that lies outside its chart's triangle the chart where it lies. The edge from a neighbour that lies inside
+  /// its own, and is no patch corner, is straight in the neighbour's chart and leads there. Returns false, and leaves the
+  /// vertex as it was, where no neighbour's edge does.
   bool reassign(int vertex);
 
-  /// The same for all free vertices.
-  void reassign_all();
+  /// The same for all free vertices, from neighbour to neighbour. Returns how many still lie outside: 0 for a map without
+  /// folds, but for those that have patch corners alone around them.
+  int reassign_all();
 
   /// Transitions of the face's corners into a common chart, that of corner `reference` (0..2). Around a face no corner of
   /// which is a patch corner the result does not depend on the reference.

@@ -209,8 +209,8 @@ ParameterizeResult finish(const Mesh& input, const Start& start, Method method, 
     if (!check.valid()) {
       std::ostringstream why;
       why << "the map is not valid: " << check.flipped_faces << " flipped faces, " << check.wrong_angle_vertices
-          << " vertices with a wrong angle, " << check.mismatched_edges << " mismatched edges, relative area error "
-          << check.area_error;
+          << " vertices with a wrong angle, " << check.mismatched_edges << " mismatched edges, " << check.misplaced_vertices
+          << " vertices outside their chart, relative area error " << check.area_error;
       throw Error(Cause::InvalidMap, why.str());
     }
   }
