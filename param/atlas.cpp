@@ -97,8 +97,9 @@ void Atlas::change_chart(int vertex, int chart, const Transition& change) {
 bool Atlas::reassign(int vertex) {
   const Complex z = position[vertex];
   if (inside(z)) return true;
-  bool found = false;
+  bool found = false, corners_only = true;
   surface->for_each_neighbour(vertex, [&](int w, int edge, bool forward) {
+    corners_only &= corner[w] >= 0;
     if (found || corner[w] >= 0 || !inside(position[w])) return;
     const Transition to_neighbour = towards(edge, forward).inverse();
     const auto arrival = follow(base, patch[w], position[w], to_neighbour.apply(z));
@@ -106,7 +107,11 @@ bool Atlas::reassign(int vertex) {
     change_chart(vertex, arrival->chart, arrival->change * to_neighbour);
     found = true;
   });
-  return found;
+  if (!corners_only) return found;
+  // Transitions at corners hold up to turns only; the way from the middle of the chart is short.
+  const auto arrival = follow(base, patch[vertex], chart_position(1.0 / 3.0, 1.0 / 3.0), z);
+  if (arrival) change_chart(vertex, arrival->chart, arrival->change);
+  return arrival.has_value();
 }
 
 int Atlas::reassign_all() {

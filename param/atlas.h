@@ -62,12 +62,13 @@ class Atlas {
   void change_chart(int vertex, int chart, const Transition& change);
 
   /// Gives a vertex that lies outside its chart's triangle the chart where it lies. The edge from a neighbour that lies inside
-  /// its own, and is no patch corner, is straight in the neighbour's chart and leads there. Returns false, and leaves the
-  /// vertex as it was, where no neighbour's edge does.
+  /// its own, and is no patch corner, is straight in the neighbour's chart and leads there; between patch corners alone the
+  /// way starts in the middle of the chart. Returns false, and leaves the vertex as it was, where there is no such neighbour
+  /// yet, or the way leaves the base.
   bool reassign(int vertex);
 
   /// The same for all free vertices, from neighbour to neighbour. Returns how many still lie outside: 0 for a map without
-  /// folds, but for those that have patch corners alone around them.
+  /// folds.
   int reassign_all();
 
   /// Transitions of the face's corners into a common chart, that of corner `reference` (0..2). Around a face no corner of

@@ -5,6 +5,7 @@
 #include "mesh/error.h"
 #include "param/coarsen.h"
 #include "param/flatten.h"
+#include "param/omega.h"
 
 namespace gsp {
 
@@ -46,9 +47,10 @@ Complex OverlayMap::flat_of(int v) const {
   return (1.0 - at.weight1) * corner(at.a) + at.weight1 * corner(at.b);
 }
 
-/// Lays the pieces of the star into the plane.
-void OverlayMap::lay_out(const Removal& removal) {
-  complex_.gather(removal.vertex, star_);
+/// Lays the pieces of the star into the plane. Returns what `take_back` needs.
+OverlayMap::Backup OverlayMap::lay_out(int vertex) {
+  Backup backup;
+  complex_.gather(vertex, star_);
   flatten_star(surface_->mesh.positions, star_, ring_);
   for (int k = 0; k < star_.size(); ++k) ring_index_[star_.ring[k]] = k;
   region_.clear();
@@ -57,6 +59,7 @@ void OverlayMap::lay_out(const Removal& removal) {
     star_index_[t] = static_cast<int>(k);
     for (int f : pieces_[t])
       if (refined_.alive(f)) region_.push_back(f);
+    backup.pieces.push_back(std::move(pieces_[t]));
     pieces_[t].clear();
   }
   piece_state_.resize(refined_.face_slots(), PieceState::Outside);
@@ -75,7 +78,28 @@ void OverlayMap::lay_out(const Removal& removal) {
       const Place& at = place_[v];
       const bool on_ring = at.triangle < 0 && at.a != star_.center && at.b != star_.center;
       hold_[v] = on_ring ? Hold::Ring : Hold::Free;
+      backup.place.push_back(at);
     }
+  backup.refined = refined_.snapshot(region_, region_vertices_);
+  return backup;
+}
+
+void OverlayMap::leave() {
+  for (int f : region_) piece_state_[f] = PieceState::Outside;
+  for (int v : region_vertices_) in_region_[v] = 0;
+  for (int v : star_.ring) ring_index_[v] = -1;
+}
+
+void OverlayMap::take_back(const Backup& backup) {
+  leave();
+  refined_.restore(backup.refined);
+  place_.resize(refined_.vertex_count());
+  flat_.resize(place_.size());
+  in_region_.resize(place_.size());
+  hold_.resize(place_.size());
+  piece_state_.resize(refined_.face_slots());
+  for (std::size_t i = 0; i < backup.place.size(); ++i) place_[region_vertices_[i]] = backup.place[i];
+  for (std::size_t k = 0; k < star_.triangles.size(); ++k) pieces_[star_.triangles[k]] = backup.pieces[k];
 }
 
 /// Moves a vertex to where a cut meets one of its edges, at a share of its length, if that spoils no piece: the nearer, the
@@ -92,7 +116,8 @@ bool OverlayMap::move_onto_cut(int v, Complex to, double share) {
   return possible;
 }
 
-/// The vertex after `at` on the cut toward ring vertex j, which is added, or moved there, where there is none.
+/// The vertex after `at` on the cut toward ring vertex j, which is added, or moved there, where there is none; -1 where the
+/// pieces in its way have no area to cut.
 int OverlayMap::next_on_cut(int at, int j) {
   const int target = star_.ring[j];
   const Complex direction = flat_[target] - flat_[at];
@@ -111,13 +136,12 @@ int OverlayMap::next_on_cut(int at, int j) {
   });
   if (found >= 0) return found;
   if (crossed < 0 || refined_.twin(crossed) < 0 || piece_state_[refined_.twin(crossed) / 3] != PieceState::Open)
-    throw Error(Cause::InvalidMap, "a piece of the surface has no area left in the plane", Element::Vertex, star_.center);
+    return -1;
   const int p = refined_.from(crossed), q = refined_.to(crossed);
   const Complex at_cut = (1.0 - share) * flat_[p] + share * flat_[q];
   if (move_onto_cut(p, at_cut, share)) return p;
   if (move_onto_cut(q, at_cut, 1.0 - share)) return q;
-  if (!(share > 0.0 && share < 1.0))
-    throw Error(Cause::InvalidMap, "a new edge meets another one", Element::Vertex, star_.center);
+  if (!(share > 0.0 && share < 1.0)) return -1;
   const int before = refined_.face_slots();
   const int added = refined_.split(crossed, share);
   for (int f = before; f < refined_.face_slots(); ++f) {
@@ -132,16 +156,25 @@ int OverlayMap::next_on_cut(int at, int j) {
   return added;
 }
 
-/// Cuts the pieces along the new edge between ring vertices i and j.
-void OverlayMap::cut(int i, int j) {
+/// Cuts the pieces along the new edge between ring vertices i and j, if they can be.
+bool OverlayMap::cut(int i, int j) {
   const int start = star_.ring[i], end = star_.ring[j];
   int at = start;
   for (int step = 0; step < kLongestCut; ++step) {
     at = next_on_cut(at, j);
-    if (at == end) return;
+    if (at == end) return true;
+    if (at < 0) return false;
     place_[at] = {-1, start, end, 0.0, 0.0};
     hold_[at] = Hold::Edge;
   }
+  return false;
+}
+
+bool OverlayMap::cut_all(const Removal& removal) {
+  // Every new edge joins the first and the last corner of exactly one triangle.
+  return std::all_of(removal.triangles.begin(), removal.triangles.end(), [&](const RingTriangle& t) {
+    return (t[0] == 0 && t[2] == star_.size() - 1) || cut(t[0], t[2]);
+  });
 }
 
 /// The two boundary edges at the centre have become one.
@@ -161,15 +194,15 @@ double OverlayMap::share_on_edge(int v, Complex at) const {
   return std::real((at - a) / (b - a));
 }
 
-/// Gives the pieces inside one new triangle to it.
-void OverlayMap::fill(int slot, const RingTriangle& triangle) {
+/// Gives the pieces inside one new triangle to it, if they are all large enough.
+bool OverlayMap::fill(int slot, const RingTriangle& triangle) {
   const int corner[3] = {star_.ring[triangle[0]], star_.ring[triangle[1]], star_.ring[triangle[2]]};
   int seed = -1;
   refined_.for_each_outgoing(corner[0], [&](int h) {
     const int to = refined_.to(h);
     if (to != corner[0] && on_side(place_[to], corner[0], corner[1])) seed = h / 3;
   });
-  if (seed < 0) throw Error(Cause::Internal, "a new triangle holds no piece", Element::Vertex, star_.center);
+  if (seed < 0) return false;
   std::vector<int>& pieces = pieces_[slot];
   pieces.assign(1, seed);
   piece_state_[seed] = PieceState::Filled;
@@ -187,8 +220,7 @@ void OverlayMap::fill(int slot, const RingTriangle& triangle) {
   const double whole = chart_area(ring_[triangle[0]], ring_[triangle[1]], ring_[triangle[2]]);
   for (int f : pieces) {
     const Triangle& t = refined_.corners(f);
-    if (!(chart_area(flat_[t[0]], flat_[t[1]], flat_[t[2]]) > kLeast * whole))
-      throw Error(Cause::InvalidMap, "a piece of the surface has no area left on the base", Element::Vertex, star_.center);
+    if (!(chart_area(flat_[t[0]], flat_[t[1]], flat_[t[2]]) > kLeast * whole)) return false;
     for (int v : t) {
       if (hold_[v] == Hold::Ring) continue;
       if (hold_[v] == Hold::Edge) {
@@ -199,6 +231,7 @@ void OverlayMap::fill(int slot, const RingTriangle& triangle) {
       place_[v] = {slot, -1, -1, w[1], w[2]};
     }
   }
+  return true;
 }
 
 /// Takes added vertices that lie on no edge of the complex any more out again.
@@ -268,25 +301,24 @@ bool OverlayMap::relax(int v) {
   return false;
 }
 
-void OverlayMap::settle(const Removal& removal) {
+bool OverlayMap::remove(const Removal& removal) {
+  const Backup backup = lay_out(removal.vertex);
+  relax();
+  bool possible = cut_all(removal);
+  if (possible) {
+    if (star_.boundary) straighten_boundary();
+    relax();
+    for (std::size_t t = 0; t < removal.triangles.size() && possible; ++t)
+      possible = fill(star_.triangles[t], removal.triangles[t]);
+  }
+  if (!possible) {
+    take_back(backup);
+    return false;
+  }
   complex_.replace(star_, removal.triangles, slots_);
-  for (std::size_t t = 0; t < removal.triangles.size(); ++t) fill(slots_[t], removal.triangles[t]);
   coarsen();
-  for (int f : region_) piece_state_[f] = PieceState::Outside;
-  for (int v : region_vertices_) in_region_[v] = 0;
-  for (int v : star_.ring) ring_index_[v] = -1;
-}
-
-void OverlayMap::remove(const Removal& removal) {
-  lay_out(removal);
-  relax();
-  const int n = star_.size();
-  // Every new edge joins the first and the last corner of exactly one triangle.
-  for (const RingTriangle& t : removal.triangles)
-    if (t[0] != 0 || t[2] != n - 1) cut(t[0], t[2]);
-  if (star_.boundary) straighten_boundary();
-  relax();
-  settle(removal);
+  leave();
+  return true;
 }
 
 /// Where a vertex lies in its home chart.

@@ -4,9 +4,7 @@
 #include <vector>
 
 #include "param/atlas.h"
-#include "param/omega.h"
 #include "param/refined_surface.h"
-#include "param/shrinking_map.h"
 #include "param/triangle_complex.h"
 
 namespace gsp {
@@ -20,9 +18,9 @@ class OverlayMap {
  public:
   explicit OverlayMap(std::shared_ptr<const Surface> surface);
 
-  /// Fills the hole of the removed vertex. Throws Error(InvalidMap) where a piece of the star would be too small for
-  /// rounding, and is of no use then.
-  void remove(const Removal& removal);
+  /// Fills the hole of the removed vertex. False, and nothing is changed, where a piece of the star would be too small for
+  /// rounding.
+  bool remove(const Removal& removal);
 
   /// The map onto the present complex. The surface's own vertices come first, then those that cuts have added. O(V).
   Atlas atlas() const { return atlas_on(refined_.compact()); }
@@ -46,14 +44,21 @@ class OverlayMap {
 
   Atlas atlas_on(const RefinedSurface::Compact& compact) const;
 
-  void lay_out(const Removal& removal);
-  void cut(int i, int j);
+  struct Backup {
+    RefinedSurface::Snapshot refined;
+    std::vector<Place> place;             ///< per vertex of the region
+    std::vector<std::vector<int>> pieces; ///< per triangle of the star
+  };
+  Backup lay_out(int vertex);
+  void take_back(const Backup& backup);
+  void leave();
+  bool cut(int i, int j);
+  bool cut_all(const Removal& removal);
   int next_on_cut(int at, int j);
   bool move_onto_cut(int v, Complex to, double share);
   void straighten_boundary();
   double share_on_edge(int v, Complex at) const;
-  void settle(const Removal& removal);
-  void fill(int slot, const RingTriangle& triangle);
+  bool fill(int slot, const RingTriangle& triangle);
   static double quality(Complex a, Complex b, Complex c);
   double least_quality(int v, Complex at) const;
   void relax();

@@ -18,7 +18,6 @@
 #include "param/simplify.h"
 #include "param/smooth.h"
 #include "param/stretch.h"
-#include "param/valid_map.h"
 #include "param/weights.h"
 
 namespace gsp {
@@ -65,8 +64,9 @@ std::vector<std::string> provenance(const Mesh& input, const ParameterizeOptions
 
 /// What the methods on one base complex share.
 struct Start {
-  SimplifyResult simplified;
+  Atlas maps;
   Atlas injective;  ///< without folds, for Method::Gsp alone
+  std::vector<OmegaRecord> omega;
 };
 
 /// Keeps the round of least stretch.
@@ -133,7 +133,7 @@ Atlas mean_value_map(const Start& start, const ParameterizeOptions& options, Par
 /// The map of least distortion: from the initial map without its folds, lowering the energy and relaxing the corners in turn.
 Atlas low_distortion_map(const Start& start, const ParameterizeOptions& options,
                          ParameterizeResult& result, Progress& progress) {
-  result.flips_before_repair = static_cast<int>(find_folds(start.simplified.atlas).faces.size());
+  result.flips_before_repair = static_cast<int>(find_folds(start.maps).faces.size());
   Atlas atlas = start.injective;
   const auto weights = mean_value_weights(*atlas.surface);
   Best best;
@@ -154,7 +154,7 @@ Atlas smooth_map(const Start& start, const ParameterizeOptions& options, Paramet
                           ? mean_value_map(start, options, result, progress)
                           : low_distortion_map(start, options, result, progress);
   for (int b = 0; b < atlas.base.vertex_count(); ++b)
-    result.corners_moved += atlas.base.vertices[b] != start.simplified.atlas.base.vertices[b];
+    result.corners_moved += atlas.base.vertices[b] != start.maps.base.vertices[b];
   return atlas;
 }
 
@@ -176,22 +176,17 @@ Mesh refined(Mesh mesh, const ParameterizeOptions& options, Progress& progress) 
 /// Simplifies the surface, and makes the map without folds where it is asked for.
 Start make_start(const Mesh& mesh, bool injective, const ParameterizeOptions& options, Progress& progress) {
   const auto surface = std::make_shared<const Surface>(refined(mesh, options, progress));
-  Start start{simplify(surface, options, progress), {}};
-  SimplifyResult& simplified = start.simplified;
+  SimplifyResult simplified = simplify(surface, options, progress);
+  Start start{std::move(simplified.atlas), {}, std::move(simplified.omega)};
   if (injective) {
-    const std::size_t asked = simplified.removals.size();
-    start.injective = injective_map(surface, simplified.removals, progress);
-    if (simplified.removals.size() < asked) {
-      simplified.atlas = map_after(surface, simplified.removals);
-      simplified.omega.resize(simplified.removals.size());
-    }
+    start.injective = simplified.overlay.coarsened();
     const int added = start.injective.surface->mesh.vertex_count() - surface->mesh.vertex_count();
     if (added > 0) progress.note(std::to_string(added) + " vertices were added where the map needs more freedom");
     const Folds folds = repair_folds(start.injective, kRings, progress);
     if (!folds.none()) give_up(folds);
     start.injective.reassign_all();
   }
-  const int left = simplified.atlas.base.vertex_count();
+  const int left = start.maps.base.vertex_count();
   if (options.base_vertices > 0 && left > options.base_vertices)
     progress.note("no further vertex can be removed: the base has " + std::to_string(left) + " vertices instead of " +
                   std::to_string(options.base_vertices));
@@ -201,7 +196,7 @@ Start make_start(const Mesh& mesh, bool injective, const ParameterizeOptions& op
 ParameterizeResult finish(const Mesh& input, const Start& start, Method method, const ParameterizeOptions& options,
                           Progress& progress) {
   ParameterizeResult result;
-  Atlas atlas = method == Method::Gsp ? smooth_map(start, options, result, progress) : start.simplified.atlas;
+  Atlas atlas = method == Method::Gsp ? smooth_map(start, options, result, progress) : start.maps;
   if (method == Method::MapsSmoothed) smooth_by_loop(atlas, progress);
   result.map = atlas.finish(provenance(input, options, method, atlas));
   if (method == Method::Gsp) {
@@ -241,7 +236,7 @@ std::vector<ParameterizeResult> parameterize_all(const Mesh& mesh, const std::ve
   std::vector<ParameterizeResult> results;
   for (Method method : methods) {
     results.push_back(finish(mesh, start, method, options, progress));
-    results.back().omega = start.simplified.omega;
+    results.back().omega = start.omega;
   }
   return results;
 }

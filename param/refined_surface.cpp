@@ -85,6 +85,34 @@ int RefinedSurface::split(int h, double share) {
   return middle;
 }
 
+RefinedSurface::Snapshot RefinedSurface::snapshot(const std::vector<int>& faces, const std::vector<int>& vertices) const {
+  Snapshot snapshot;
+  snapshot.faces_ = faces;
+  snapshot.vertices_ = vertices;
+  for (int f : faces) {
+    snapshot.corners_.push_back(faces_[f]);
+    for (int k = 0; k < 3; ++k) snapshot.twin_.push_back(twin_[3 * f + k]);
+  }
+  for (int v : vertices) snapshot.outgoing_.push_back(outgoing_[v]);
+  snapshot.face_slots_ = face_slots();
+  snapshot.vertex_count_ = vertex_count();
+  return snapshot;
+}
+
+void RefinedSurface::restore(const Snapshot& snapshot) {
+  faces_.resize(snapshot.face_slots_);
+  origin_.resize(snapshot.face_slots_);
+  twin_.resize(3 * static_cast<std::size_t>(snapshot.face_slots_));
+  support_.resize(snapshot.vertex_count_);
+  outgoing_.resize(snapshot.vertex_count_);
+  for (std::size_t i = 0; i < snapshot.faces_.size(); ++i) {
+    const int f = snapshot.faces_[i];
+    faces_[f] = snapshot.corners_[i];
+    for (int k = 0; k < 3; ++k) join(3 * f + k, snapshot.twin_[3 * i + k]);
+  }
+  for (std::size_t i = 0; i < snapshot.vertices_.size(); ++i) outgoing_[snapshot.vertices_[i]] = snapshot.outgoing_[i];
+}
+
 bool RefinedSurface::can_collapse(int h) const {
   const int m = from(h), n = to(h);
   if (!added(m)) return false;

@@ -54,6 +54,12 @@ class RefinedSurface {
   /// Returns the new vertex.
   int split(int h, double share);
 
+  /// What `split` may change in some faces, and at all vertices of them.
+  class Snapshot;
+  Snapshot snapshot(const std::vector<int>& faces, const std::vector<int>& vertices) const;
+  /// Undoes all splits since the snapshot, which must have been of edges between its faces, or new ones in them.
+  void restore(const Snapshot& snapshot);
+
   /// Whether the added vertex from(h) can be drawn along h onto to(h) so that the surface stays what it is.
   bool can_collapse(int h) const;
   /// Does so: the two faces beside h die, in the others around from(h) to(h) takes its place.
@@ -107,6 +113,15 @@ class RefinedSurface {
   std::vector<int> twin_, outgoing_;
   std::vector<int> origin_;  ///< per face
   std::vector<Support> support_;
+};
+
+class RefinedSurface::Snapshot {
+  friend class RefinedSurface;
+  std::vector<int> faces_, vertices_;
+  std::vector<Triangle> corners_;  ///< per face of `faces_`
+  std::vector<int> twin_;          ///< three per face
+  std::vector<int> outgoing_;      ///< per vertex of `vertices_`
+  int face_slots_ = 0, vertex_count_ = 0;
 };
 
 }  // namespace gsp

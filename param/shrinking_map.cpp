@@ -134,10 +134,4 @@ Atlas ShrinkingMap::atlas() const {
   return atlas;
 }
 
-Atlas map_after(std::shared_ptr<const Surface> surface, const std::vector<Removal>& removals) {
-  ShrinkingMap map(std::move(surface));
-  for (const Removal& removal : removals) map.remove(removal);
-  return map.atlas();
-}
-
 }  // namespace gsp

@@ -10,12 +10,6 @@
 
 namespace gsp {
 
-/// A vertex removal of §3.1 and how its hole was filled.
-struct Removal {
-  int vertex;
-  std::vector<RingTriangle> triangles;
-};
-
 /// The surface's map onto the shrinking complex T^i of §3.1: a homeomorphism up to the straightening of edges.
 class ShrinkingMap {
  public:
@@ -52,8 +46,5 @@ class ShrinkingMap {
   std::vector<int> slots_, moving_;
   std::vector<Complex> moving_flat_;
 };
-
-/// The map after some removals from the surface itself, which its vertices carry.
-Atlas map_after(std::shared_ptr<const Surface> surface, const std::vector<Removal>& removals);
 
 }  // namespace gsp

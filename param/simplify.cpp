@@ -30,30 +30,31 @@ class Simplifier {
         options_(options),
         progress_(progress),
         map_(surface_),
+        overlay_(surface_),
         pricer_(*surface_, map_.complex(), map_.locations(), map_.points(), options_) {}
 
   SimplifyResult run() {
     price_all();
     remove_until_done();
-    return {map_.atlas(), std::move(removals_), std::move(record_)};
+    return {map_.atlas(), std::move(overlay_), std::move(record_)};
   }
 
  private:
   void price_all();
   void remove_until_done();
-  void remove(int vertex);
+  bool remove(int vertex);
 
   std::shared_ptr<const Surface> surface_;
   const ParameterizeOptions& options_;
   Progress& progress_;
   ShrinkingMap map_;
+  OverlayMap overlay_;
   Pricer pricer_;
   Candidate candidate_;
   std::vector<int> stamp_;
   std::vector<char> stale_;   ///< its star changed since it was priced
   std::vector<char> queued_;
   std::priority_queue<Entry> queue_;
-  std::vector<Removal> removals_;
   std::vector<OmegaRecord> record_;
   int remaining_ = 0;
 };
@@ -98,22 +99,23 @@ void Simplifier::remove_until_done() {
       queued_[top.vertex] = 1;
       continue;
     }
+    queued_[top.vertex] = 0;  // if it cannot be removed now it waits until its star changes
     pricer_.price(top.vertex, candidate_);
     if (!candidate_.feasible) continue;
     candidate_.parts.remaining_vertices = remaining_ - 1;
     if (options_.base_vertices == 0 && stop.reached(candidate_.parts)) break;
+    if (!remove(top.vertex)) continue;
     record_.push_back(candidate_.parts);
-    remove(top.vertex);
     if (record_.size() % 4096 == 0)
       progress_.report("simplify", 1.0 - double(remaining_ - options_.base_vertices) / start);
   }
 }
 
-void Simplifier::remove(int vertex) {
-  removals_.push_back({vertex, candidate_.triangles});
-  map_.remove(removals_.back());
+bool Simplifier::remove(int vertex) {
+  const Removal removal{vertex, candidate_.triangles};
+  if (!overlay_.remove(removal)) return false;
+  map_.remove(removal);
   --remaining_;
-  queued_[vertex] = 0;
   for (int neighbour : pricer_.star().ring) {
     stale_[neighbour] = 1;
     if (queued_[neighbour]) continue;
@@ -121,6 +123,7 @@ void Simplifier::remove(int vertex) {
     queue_.push({0.0, neighbour, ++stamp_[neighbour]});
     queued_[neighbour] = 1;
   }
+  return true;
 }
 
 }  // namespace

@@ -22,6 +22,12 @@ struct Star {
 /// Corners of a new triangle as indices into a star's ring, increasing.
 using RingTriangle = std::array<int, 3>;
 
+/// A vertex removal of §3.1 and how its hole is filled.
+struct Removal {
+  int vertex;
+  std::vector<RingTriangle> triangles;
+};
+
 /// The shrinking complex T^i of §3.1: triangles with neighbours over the surface's vertices. Removing a vertex reuses the
 /// slots of its star, so a triangle's index stays valid while it lives.
 class TriangleComplex {

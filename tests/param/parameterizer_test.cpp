@@ -14,7 +14,6 @@
 #include "param/simplify.h"
 #include "param/smooth.h"
 #include "param/stretch.h"
-#include "param/valid_map.h"
 #include "param/weights.h"
 
 using namespace gsp;
@@ -137,7 +136,7 @@ TEST_CASE("every step from the injective map on is free of folds, and lowering t
     INFO(c.name);
     SimplifyResult made = simplification(c.mesh, c.base_vertices);
     Progress progress;
-    Atlas atlas = injective_map(made.atlas.surface, made.removals, progress);
+    Atlas atlas = made.overlay.coarsened();
     REQUIRE(find_folds(atlas).none());
     CHECK(atlas.broken_faces() == 0);
     CHECK(std::abs(area_excess(atlas)) < 1e-10);
@@ -157,19 +156,10 @@ TEST_CASE("every step from the injective map on is free of folds, and lowering t
   }
 }
 
-TEST_CASE("removals made again give the same map") {
-  const SimplifyResult first = simplification(shapes::torus(30, 12), 16);
-  const Atlas again = map_after(first.atlas.surface, first.removals);
-  CHECK(again.base.vertices == first.atlas.base.vertices);
-  CHECK(again.patch == first.atlas.patch);
-  CHECK(again.position == first.atlas.position);
-  CHECK(again.transition == first.atlas.transition);
-}
-
 TEST_CASE("the distortion energy is bounded below by that of isometries, and its gradient is its slope") {
   SimplifyResult made = simplification(shapes::sphere(3), 12);
   Progress progress;
-  const Atlas flat = injective_map(made.atlas.surface, made.removals, progress);
+  const Atlas flat = made.overlay.coarsened();
   REQUIRE(find_folds(flat).none());
   std::vector<int> vertices, faces;
   const std::vector<char> interior = interior_vertices(flat);
