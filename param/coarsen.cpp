@@ -8,19 +8,21 @@ constexpr int kPasses = 3;  // a vertex may have to wait for its neighbours
 
 class Coarsener {
  public:
-  Coarsener(const Atlas& atlas, RefinedSurface refined, const RefinedSurface::Compact& compact)
-      : refined_(std::move(refined)),
+  explicit Coarsener(RefinedMap map)
+      : map_(std::move(map)),
+        refined_(map_.refined),
         patch_(refined_.vertex_count(), -1),
         position_(refined_.vertex_count()),
-        transition_(3 * refined_.face_slots()) {
+        transition_(3 * static_cast<std::size_t>(refined_.face_slots())) {
+    const Atlas& atlas = map_.atlas;
     for (int v = 0; v < refined_.vertex_count(); ++v) {
-      if (compact.vertex[v] < 0) continue;
-      patch_[v] = atlas.patch[compact.vertex[v]];
-      position_[v] = atlas.position[compact.vertex[v]];
+      if (map_.vertex[v] < 0) continue;
+      patch_[v] = atlas.patch[map_.vertex[v]];
+      position_[v] = atlas.position[map_.vertex[v]];
     }
     const Surface& surface = *atlas.surface;
-    for (std::size_t h = 0; h < compact.halfedge.size(); ++h)
-      transition_[compact.halfedge[h]] =
+    for (std::size_t h = 0; h < map_.halfedge.size(); ++h)
+      transition_[map_.halfedge[h]] =
           atlas.towards(surface.edge_of[h], surface.edge_halfedge[surface.edge_of[h]] == static_cast<int>(h));
   }
 
@@ -53,11 +55,9 @@ class Coarsener {
     }
   }
 
-  Atlas finish(const Atlas& before) const {
+  RefinedMap finish() {
     RefinedSurface::Compact compact = refined_.compact();
-    Atlas atlas;
-    atlas.base = before.base;
-    atlas.fans = before.fans;
+    Atlas& atlas = map_.atlas;
     atlas.surface = std::make_shared<const Surface>(std::move(compact.mesh));
     const int count = atlas.surface->mesh.vertex_count();
     atlas.patch.assign(count, -1);
@@ -69,12 +69,16 @@ class Coarsener {
       atlas.position[compact.vertex[v]] = position_[v];
     }
     for (int b = 0; b < atlas.base.vertex_count(); ++b) atlas.corner[atlas.base.vertices[b]] = b;
+    atlas.transition.clear();
     for (int h : atlas.surface->edge_halfedge) atlas.transition.push_back(transition_[compact.halfedge[h]]);
-    return atlas;
+    map_.vertex = std::move(compact.vertex);
+    map_.halfedge = std::move(compact.halfedge);
+    return std::move(map_);
   }
 
  private:
-  RefinedSurface refined_;
+  RefinedMap map_;
+  RefinedSurface& refined_;
   std::vector<int> patch_;              ///< per vertex, -1 for those that are out
   std::vector<Complex> position_;       ///< per vertex
   std::vector<Transition> transition_;  ///< per half-edge, from the chart of its head to that of its tail
@@ -82,10 +86,10 @@ class Coarsener {
 
 }  // namespace
 
-Atlas coarsen(const Atlas& atlas, RefinedSurface refined, const RefinedSurface::Compact& compact) {
-  Coarsener coarsener(atlas, std::move(refined), compact);
+RefinedMap coarsen(RefinedMap map) {
+  Coarsener coarsener(std::move(map));
   coarsener.run();
-  return coarsener.finish(atlas);
+  return coarsener.finish();
 }
 
 }  // namespace gsp

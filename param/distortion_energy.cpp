@@ -145,28 +145,37 @@ bool DistortionEnergy::upright(const std::vector<double>& x) const {
   });
 }
 
+DistortionEnergy::Columns DistortionEnergy::columns(const Face& face) {
+  const double i00 = face.inverse[0], i01 = face.inverse[1], i11 = face.inverse[2];
+  return {{-i00, i00, 0.0}, {-i01 - i11, i01, i11}};
+}
+
+DistortionEnergy::Jacobian DistortionEnergy::jacobian(const Columns& by, const std::array<Complex, 3>& z) {
+  const Complex e1 = z[1] - z[0], e2 = z[2] - z[0];
+  return {by.first[1] * e1, by.second[1] * e1 + by.second[2] * e2};
+}
+
+DistortionEnergy::Slope DistortionEnergy::slope(const Jacobian& at, double epsilon) const {
+  const auto& [j1, j2] = at;
+  const double det = cross(j1, j2), square = std::norm(j1) + std::norm(j2);
+  const double root = std::sqrt(epsilon * epsilon + det * det);
+  const double chi = det > 0.0 ? 0.5 * (det + root) : 0.5 * epsilon * epsilon / (root - det);
+  const double shape = 0.5 * square / chi, area = 0.5 * area_weight_ * (det * det + 1.0) / chi;
+  // dχ/d det = χ / root, and d det / dJ is the cofactor matrix (-i·j2, i·j1).
+  const double by_det = area_weight_ * det / chi - (shape + area) / root;
+  return {shape + area, j1 / chi + by_det * Complex(j2.imag(), -j2.real()), j2 / chi + by_det * Complex(-j1.imag(), j1.real())};
+}
+
 double DistortionEnergy::evaluate(const double* x, double* gradient, double epsilon) const {
   std::fill(gradient, gradient + 2 * vertices_.size(), 0.0);
   double energy = 0.0;
   for (const Face& face : faces_) {
-    const auto z = corners(face, x);
-    const Complex e1 = z[1] - z[0], e2 = z[2] - z[0];
-    const double i00 = face.inverse[0], i01 = face.inverse[1], i11 = face.inverse[2];
-    const Complex j1 = i00 * e1, j2 = i01 * e1 + i11 * e2;  // the columns of J
-    const double det = cross(j1, j2), square = std::norm(j1) + std::norm(j2);
-    const double root = std::sqrt(epsilon * epsilon + det * det);
-    const double chi = det > 0.0 ? 0.5 * (det + root) : 0.5 * epsilon * epsilon / (root - det);
-    const double shape = 0.5 * square / chi, area = 0.5 * area_weight_ * (det * det + 1.0) / chi;
-    energy += face.weight * (shape + area);
-    // dχ/d det = χ / root, and d det / dJ is the cofactor matrix (-i·j2, i·j1).
-    const double by_det = area_weight_ * det / chi - (shape + area) / root;
-    const Complex g1 = face.weight * (j1 / chi + by_det * Complex(j2.imag(), -j2.real()));
-    const Complex g2 = face.weight * (j2 / chi + by_det * Complex(-j1.imag(), j1.real()));
-    const Complex d1 = i00 * g1 + i01 * g2, d2 = i11 * g2;
-    const Complex by_corner[3] = {-d1 - d2, d1, d2};
+    const Columns by = columns(face);
+    const Slope at = slope(jacobian(by, corners(face, x)), epsilon);
+    energy += face.weight * at.density;
     for (int k = 0; k < 3; ++k) {
       if (face.variable[k] < 0) continue;
-      const Complex g = std::conj(face.turn[k]) * by_corner[k];
+      const Complex g = face.weight * std::conj(face.turn[k]) * (by.first[k] * at.by_j1 + by.second[k] * at.by_j2);
       gradient[2 * face.variable[k]] += g.real();
       gradient[2 * face.variable[k] + 1] += g.imag();
     }
@@ -175,34 +184,45 @@ double DistortionEnergy::evaluate(const double* x, double* gradient, double epsi
   return std::isfinite(energy) ? energy : std::numeric_limits<double>::max();
 }
 
+double DistortionEnergy::density(int face, const double* x) const {
+  const auto z = corners(faces_[face], x);
+  if (!gsp::upright(z[0], z[1], z[2])) return std::numeric_limits<double>::infinity();
+  return slope(jacobian(columns(faces_[face]), z), 0.0).density;
+}
+
+DistortionEnergy::ByCorner DistortionEnergy::by_corner(int face_index, int corner, const double* x) const {
+  const Face& face = faces_[face_index];
+  const Columns by = columns(face);
+  const Jacobian at = jacobian(by, corners(face, x));
+  const Slope s = slope(at, 0.0);
+  const double first = by.first[corner], second = by.second[corner];
+  const Complex g = face.weight * std::conj(face.turn[corner]) * (first * s.by_j1 + second * s.by_j2);
+  const Eigen::Matrix<double, 4, 2> chain = by_position(face, corner, by);
+  return {face.weight * s.density,
+          {g.real(), g.imag()},
+          face.weight * chain.transpose() * convex_hessian_by_jacobian(at.j1, at.j2, area_weight_) * chain};
+}
+
 std::array<int, 3> DistortionEnergy::variables(int face) const {
   const Face& f = faces_[face];
   return {f.variable[0], f.variable[1], f.variable[2]};
 }
 
-DistortionEnergy::Columns DistortionEnergy::columns(const Face& face) {
-  const double i00 = face.inverse[0], i01 = face.inverse[1], i11 = face.inverse[2];
-  return {{-i00, i00, 0.0}, {-i01 - i11, i01, i11}};
+Eigen::Matrix<double, 4, 2> DistortionEnergy::by_position(const Face& face, int corner, const Columns& by) {
+  Eigen::Matrix2d turn;
+  turn << face.turn[corner].real(), -face.turn[corner].imag(), face.turn[corner].imag(), face.turn[corner].real();
+  Eigen::Matrix<double, 4, 2> chain;
+  chain << by.first[corner] * turn, by.second[corner] * turn;
+  return chain;
 }
 
 Eigen::Matrix<double, 6, 6> DistortionEnergy::convex_hessian(int face_index, const double* x) const {
   const Face& face = faces_[face_index];
-  const auto z = corners(face, x);
   const Columns by = columns(face);
-  Complex j1 = 0.0, j2 = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    j1 += by.first[k] * z[k];
-    j2 += by.second[k] * z[k];
-  }
-  const Eigen::Matrix4d h = face.weight * convex_hessian_by_jacobian(j1, j2, area_weight_);
+  const Jacobian at = jacobian(by, corners(face, x));
   Eigen::Matrix<double, 4, 6> chain;
-  for (int k = 0; k < 3; ++k) {
-    Eigen::Matrix2d turn;
-    turn << face.turn[k].real(), -face.turn[k].imag(), face.turn[k].imag(), face.turn[k].real();
-    chain.block<2, 2>(0, 2 * k) = by.first[k] * turn;
-    chain.block<2, 2>(2, 2 * k) = by.second[k] * turn;
-  }
-  return chain.transpose() * h * chain;
+  for (int k = 0; k < 3; ++k) chain.middleCols<2>(2 * k) = by_position(face, k, by);
+  return face.weight * chain.transpose() * convex_hessian_by_jacobian(at.j1, at.j2, area_weight_) * chain;
 }
 
 double DistortionEnergy::longest_step(const double* x, const double* direction) const {

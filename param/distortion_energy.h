@@ -26,6 +26,9 @@ class DistortionEnergy {
 
   /// Energy and gradient at x for ε.
   double evaluate(const double* x, double* gradient, double epsilon) const;
+  /// Energy of one face by area, with ε = 0: 1 + λ for an isometry, infinite where the face is not upright.
+  double density(int face, const double* x) const;
+  double weight(int face) const { return faces_[face].weight; }
   double least_determinant(const std::vector<double>& x) const;
   bool upright(const std::vector<double>& x) const;
 
@@ -36,6 +39,14 @@ class DistortionEnergy {
   /// Second derivatives of one upright face's energy with ε = 0 by its corners' positions (x, y each), with the negative
   /// eigenvalues of those by J, which are known in closed form (Smith et al. 2019), left out. Rows of held corners too.
   Eigen::Matrix<double, 6, 6> convex_hessian(int face, const double* x) const;
+
+  /// The energy of one upright face with ε = 0 and its derivatives by the position of one corner, which is not held.
+  struct ByCorner {
+    double energy;
+    Eigen::Vector2d gradient;
+    Eigen::Matrix2d convex_hessian;
+  };
+  ByCorner by_corner(int face, int corner, const double* x) const;
 
   /// The largest t <= 1 for which no face loses its area on the way from x to x + s·direction, s < t.
   double longest_step(const double* x, const double* direction) const;
@@ -54,7 +65,19 @@ class DistortionEnergy {
     double first[3], second[3];
   };
   static Columns columns(const Face& face);
+  /// Derivatives of (j1, j2) by the position of one corner.
+  static Eigen::Matrix<double, 4, 2> by_position(const Face& face, int corner, const Columns& by);
   std::array<Complex, 3> corners(const Face& face, const double* x) const;
+  struct Jacobian {
+    Complex j1, j2;
+  };
+  static Jacobian jacobian(const Columns& by, const std::array<Complex, 3>& z);
+  /// Energy of a face by area, and its slope by the columns of J.
+  struct Slope {
+    double density;
+    Complex by_j1, by_j2;
+  };
+  Slope slope(const Jacobian& at, double epsilon) const;
 
   std::vector<int> vertices_;
   std::vector<Face> faces_;

@@ -7,6 +7,7 @@
 #include "param/distortion_energy.h"
 #include "param/folds.h"
 #include "param/global_system.h"
+#include "param/lower_peaks.h"
 #include "param/sparse_solver.h"
 
 namespace gsp {
@@ -14,10 +15,12 @@ namespace gsp {
 namespace {
 
 constexpr double kAreaWeight = 1.0;
-constexpr double kLittle = 1e-4;        // of the energy, below which the gain of a step ends the search
+constexpr int kMostSteps = 100;
 constexpr double kShare = 0.9;          // of the way to the first fold
+constexpr double kShortStep = 0.5;      // that a fold has held up
 constexpr double kArmijo = 1e-4;
 constexpr double kShortestStep = 1e-6;
+constexpr double kSmallestShift = 1e-12, kLargestShift = 0.1;  // of the Hessian's diagonal
 
 /// The convex Hessian of a whole energy: the pattern is found once, the values are filled in for each x.
 class Hessian {
@@ -38,7 +41,7 @@ class Hessian {
   }
 
   /// The lower triangle at x.
-  const Eigen::SparseMatrix<double>& at(const double* x) {
+  Eigen::SparseMatrix<double>& at(const double* x) {
     parallel_for(faces_.size(), 1024, [&](std::size_t begin, std::size_t end) {
       for (std::size_t f = begin; f < end; ++f) faces_[f] = energy_.convex_hessian(static_cast<int>(f), x);
     });
@@ -78,7 +81,7 @@ class Descent {
 
   /// One Newton step. Returns the share of the energy it gained, 0 where it found nothing.
   double step() {
-    if (!solver_.factorize(hessian_.at(x_.data()))) return 0.0;
+    if (!factorize()) return 0.0;
     const Eigen::Map<Eigen::VectorXd> gradient(gradient_.data(), gradient_.size());
     const Eigen::VectorXd direction = solver_.solve(-gradient);
     const double slope = gradient.dot(direction);
@@ -89,16 +92,30 @@ class Descent {
       for (std::size_t i = 0; i < x_.size(); ++i) trial[i] = x_[i] + t * direction[i];
       const double value = energy_.evaluate(trial.data(), trial_gradient.data(), 0.0);
       if (!(value <= value_ + kArmijo * t * slope) || !energy_.upright(trial)) continue;
-      const double gain = (value_ - value) / value_;
+      const double before = value_;
       value_ = value;
       x_.swap(trial);
       gradient_.swap(trial_gradient);
-      return gain;
+      if (t < kShortStep) {
+        lower_peaks(energy_, x_);
+        value_ = energy_.evaluate(x_.data(), gradient_.data(), 0.0);
+      }
+      return (before - value_) / before;
     }
     return 0.0;
   }
 
  private:
+  /// Where rounding has lost that the Hessian is definite, a small share is added to its diagonal.
+  bool factorize() {
+    Eigen::SparseMatrix<double>& matrix = hessian_.at(x_.data());
+    for (double more = 0.0; more < kLargestShift; more = std::max(kSmallestShift, 100.0 * more)) {
+      if (more > 0.0) matrix.diagonal() *= 1.0 + more;
+      if (solver_.factorize(matrix)) return true;
+    }
+    return false;
+  }
+
   const DistortionEnergy& energy_;
   std::vector<double>& x_;
   Hessian hessian_;
@@ -109,7 +126,7 @@ class Descent {
 
 }  // namespace
 
-bool lower_distortion(Atlas& atlas, int steps, Progress& progress) {
+bool lower_distortion(Atlas& atlas, double least_gain, Progress& progress) {
   seat_boundary(atlas);
   std::vector<int> vertices, faces(atlas.surface->mesh.faces.size());
   for (int v = 0; v < static_cast<int>(atlas.patch.size()); ++v)
@@ -119,10 +136,11 @@ bool lower_distortion(Atlas& atlas, int steps, Progress& progress) {
   const DistortionEnergy energy(atlas, vertices, faces, kAreaWeight);
   std::vector<double> x = energy.positions(atlas);
   const std::vector<Complex> before = atlas.position;
+  lower_peaks(energy, x);
   Descent descent(energy, x);
-  for (int i = 0; i < steps; ++i) {
-    progress.report("lower distortion", double(i) / steps);
-    if (descent.step() < kLittle) break;
+  for (int i = 0; i < kMostSteps; ++i) {
+    progress.report("lower distortion", double(i) / kMostSteps);
+    if (descent.step() < least_gain) break;
   }
   energy.write_back(x, atlas);
   if (!find_folds(atlas).none()) {

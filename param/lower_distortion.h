@@ -5,11 +5,11 @@
 
 namespace gsp {
 
-/// Lowers the `DistortionEnergy` of a whole map free of folds, over all its free vertices, by at most so many Newton steps
-/// with a convex Hessian; it ends before when a step gains little. No step leaves the maps without folds. The energy knows
+/// Lowers the `DistortionEnergy` of a whole map free of folds, over all its free vertices, by Newton steps with a
+/// convex Hessian, until one gains less than `least_gain` of the energy. No step leaves the maps without folds. The energy knows
 /// nothing of patches, so its minimiser is as smooth across patch edges as within them. Vertices are then given the charts
 /// they lie in. One sparse Cholesky factorization a step. Returns false, the map unchanged, where nothing was gained.
 /// Throws Error(Cancelled).
-bool lower_distortion(Atlas& atlas, int steps, Progress& progress);
+bool lower_distortion(Atlas& atlas, double least_gain, Progress& progress);
 
 }  // namespace gsp

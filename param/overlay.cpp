@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "mesh/error.h"
-#include "param/coarsen.h"
 #include "param/flatten.h"
 #include "param/omega.h"
 
@@ -235,7 +234,7 @@ bool OverlayMap::fill(int slot, const RingTriangle& triangle) {
 }
 
 /// Takes added vertices that lie on no edge of the complex any more out again.
-void OverlayMap::coarsen() {
+void OverlayMap::take_out() {
   for (int v : region_vertices_) {
     if (!refined_.added(v) || hold_[v] != Hold::Free) continue;
     const auto link = [&](int out) {
@@ -316,7 +315,7 @@ bool OverlayMap::remove(const Removal& removal) {
     return false;
   }
   complex_.replace(star_, removal.triangles, slots_);
-  coarsen();
+  take_out();
   leave();
   return true;
 }
@@ -389,9 +388,10 @@ Atlas OverlayMap::atlas_on(const RefinedSurface::Compact& compact) const {
   return atlas;
 }
 
-Atlas OverlayMap::coarsened() const {
-  const RefinedSurface::Compact compact = refined_.compact();
-  return gsp::coarsen(atlas_on(compact), refined_, compact);
+RefinedMap OverlayMap::coarsened() && {
+  RefinedSurface::Compact compact = refined_.compact();
+  Atlas atlas = atlas_on(compact);
+  return coarsen({std::move(refined_), std::move(atlas), std::move(compact.vertex), std::move(compact.halfedge)});
 }
 
 }  // namespace gsp

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "param/atlas.h"
+#include "param/coarsen.h"
 #include "param/refined_surface.h"
 #include "param/triangle_complex.h"
 
@@ -27,8 +28,8 @@ class OverlayMap {
 
   const RefinedSurface& refined() const { return refined_; }
 
-  /// The same without the added vertices that the map does not need (`coarsen`).
-  Atlas coarsened() const;
+  /// The same without the added vertices that the map does not need (`gsp::coarsen`).
+  RefinedMap coarsened() &&;
 
  private:
   /// Where a vertex lies on the complex: in a triangle, on an edge between two of its vertices, or at one.
@@ -63,7 +64,7 @@ class OverlayMap {
   double least_quality(int v, Complex at) const;
   void relax();
   bool relax(int v);
-  void coarsen();
+  void take_out();
 
   std::shared_ptr<const Surface> surface_;
   TriangleComplex complex_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <optional>
 #include <sstream>
 
 #include <Eigen/Geometry>
@@ -25,7 +26,7 @@ namespace gsp {
 namespace {
 
 constexpr double kRelaxationRadius = 0.45;  // in base edges; below 1/2 regions never meet
-constexpr int kStepsPerRound = 100;          // of lowering the distortion between two relaxations
+constexpr double kRoughly = 2e-3, kFinely = 1e-4;  // gain of a step that ends lowering the distortion, between and after relaxations
 constexpr int kGuardedRounds = 3;
 constexpr int kPatience = 2;                // rounds before the paper's iteration can be given up,
 constexpr double kHopeless = 2e-4;          // where a larger share of faces is folded
@@ -65,7 +66,7 @@ std::vector<std::string> provenance(const Mesh& input, const ParameterizeOptions
 /// What the methods on one base complex share.
 struct Start {
   Atlas maps;
-  Atlas injective;  ///< without folds, for Method::Gsp alone
+  std::optional<RefinedMap> injective;  ///< for Method::Gsp alone
   std::vector<OmegaRecord> omega;
 };
 
@@ -112,12 +113,12 @@ Atlas solve_and_relax(Atlas atlas, const ParameterizeOptions& options, Parameter
 /// The paper's solution. Where its folds do not come free it is approached over maps that have none.
 Atlas mean_value_map(const Start& start, const ParameterizeOptions& options, ParameterizeResult& result,
                      Progress& progress) {
-  Atlas atlas = solve_and_relax(start.injective, options, result, progress);
+  Atlas atlas = solve_and_relax(start.injective->atlas, options, result, progress);
   if (repair_folds(atlas, kRings, progress).none()) {
     atlas.reassign_all();
     return atlas;
   }
-  atlas = start.injective;
+  atlas = start.injective->atlas;
   const auto weights = mean_value_weights(*atlas.surface);
   Best best;
   for (int round = 0; round < kGuardedRounds; ++round) {
@@ -134,17 +135,22 @@ Atlas mean_value_map(const Start& start, const ParameterizeOptions& options, Par
 Atlas low_distortion_map(const Start& start, const ParameterizeOptions& options,
                          ParameterizeResult& result, Progress& progress) {
   result.flips_before_repair = static_cast<int>(find_folds(start.maps).faces.size());
-  Atlas atlas = start.injective;
+  RefinedMap rough = *start.injective;
+  lower_distortion(rough.atlas, kRoughly, progress);
+  // Where the map has become smooth it needs fewer added vertices.
+  Atlas atlas = coarsen(std::move(rough)).atlas;
   const auto weights = mean_value_weights(*atlas.surface);
   Best best;
-  for (int round = 0; round <= options.relaxations; ++round) {
-    const int moved = round == 0 ? 0 : relax_corners(atlas, weights, kRelaxationRadius, Folding::Refused);
-    if (round > 0 && moved == 0) break;
-    lower_distortion(atlas, kStepsPerRound, progress);
+  best.offer(atlas, 0);
+  for (int round = 1; round <= options.relaxations; ++round) {
+    if (relax_corners(atlas, weights, kRelaxationRadius, Folding::Refused) == 0) break;
+    lower_distortion(atlas, kRoughly, progress);
     best.offer(atlas, round);
   }
   result.relaxation_rounds = best.round();
-  return best.atlas();
+  atlas = best.atlas();
+  lower_distortion(atlas, kFinely, progress);
+  return atlas;
 }
 
 /// Makes the map without folds by the method and objective asked for, and counts how its corners moved.
@@ -179,12 +185,13 @@ Start make_start(const Mesh& mesh, bool injective, const ParameterizeOptions& op
   SimplifyResult simplified = simplify(surface, options, progress);
   Start start{std::move(simplified.atlas), {}, std::move(simplified.omega)};
   if (injective) {
-    start.injective = simplified.overlay.coarsened();
-    const int added = start.injective.surface->mesh.vertex_count() - surface->mesh.vertex_count();
+    start.injective = std::move(simplified.overlay).coarsened();
+    Atlas& atlas = start.injective->atlas;
+    const int added = atlas.surface->mesh.vertex_count() - surface->mesh.vertex_count();
     if (added > 0) progress.note(std::to_string(added) + " vertices were added where the map needs more freedom");
-    const Folds folds = repair_folds(start.injective, kRings, progress);
+    const Folds folds = repair_folds(atlas, kRings, progress);
     if (!folds.none()) give_up(folds);
-    start.injective.reassign_all();
+    atlas.reassign_all();
   }
   const int left = start.maps.base.vertex_count();
   if (options.base_vertices > 0 && left > options.base_vertices)

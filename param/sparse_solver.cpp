@@ -23,11 +23,16 @@ template <class Matrix>
 using Solver = Eigen::UmfPackLU<Matrix>;
 using Cholesky = Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
 
-/// A threaded BLAS sums in an order that depends on the number of threads; results must not.
-void use_one_blas_thread() {
+/// A threaded BLAS sums in an order that depends on the number of threads; results must not. CHOLMOD's own threads make
+/// loops that are too short for them, and take a fifth of its time.
+void use_one_solver_thread() {
   static std::once_flag once;
   std::call_once(once, [] {
-    if (void* set = dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) reinterpret_cast<void (*)(int)>(set)(1);
+    const auto call = [](const char* name, int value) {
+      if (void* function = dlsym(RTLD_DEFAULT, name)) reinterpret_cast<void (*)(int)>(function)(value);
+    };
+    call("openblas_set_num_threads", 1);
+    call("omp_set_max_active_levels", 0);
   });
 }
 #else
@@ -35,14 +40,14 @@ template <class Matrix>
 using Solver = Eigen::SparseLU<Matrix, Eigen::COLAMDOrdering<int>>;
 using Cholesky = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
 
-void use_one_blas_thread() {}
+void use_one_solver_thread() {}
 #endif
 
 }  // namespace
 
 ComplexVector solve_sparse(const ComplexMatrix& a, const ComplexVector& b) {
   if (b.size() == 0) return b;
-  use_one_blas_thread();
+  use_one_solver_thread();
   Solver<ComplexMatrix> solver;
   solver.compute(a);
   if (solver.info() != Eigen::Success)
@@ -55,7 +60,7 @@ ComplexVector solve_sparse(const ComplexMatrix& a, const ComplexVector& b) {
 }
 
 bool solve_sparse(const Eigen::SparseMatrix<double>& a, const Eigen::MatrixX2d& b, Eigen::MatrixX2d& x) {
-  use_one_blas_thread();
+  use_one_solver_thread();
   Solver<Eigen::SparseMatrix<double>> solver;
   solver.compute(a);
   if (solver.info() != Eigen::Success) return false;
@@ -80,7 +85,7 @@ CholeskySolver::CholeskySolver() : factor_(std::make_unique<Factor>()) {
 CholeskySolver::~CholeskySolver() = default;
 
 bool CholeskySolver::factorize(const Eigen::SparseMatrix<double>& lower) {
-  use_one_blas_thread();
+  use_one_solver_thread();
   if (!factor_->analysed) factor_->llt.analyzePattern(lower);
   factor_->analysed = true;
   factor_->llt.factorize(lower);

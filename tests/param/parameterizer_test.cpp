@@ -136,7 +136,7 @@ TEST_CASE("every step from the injective map on is free of folds, and lowering t
     INFO(c.name);
     SimplifyResult made = simplification(c.mesh, c.base_vertices);
     Progress progress;
-    Atlas atlas = made.overlay.coarsened();
+    Atlas atlas = std::move(made.overlay).coarsened().atlas;
     REQUIRE(find_folds(atlas).none());
     CHECK(atlas.broken_faces() == 0);
     CHECK(std::abs(area_excess(atlas)) < 1e-10);
@@ -149,7 +149,7 @@ TEST_CASE("every step from the injective map on is free of folds, and lowering t
     CHECK(find_folds(smooth).none());
     seat_boundary(atlas);
     const double before = l2_stretch(atlas);
-    CHECK(lower_distortion(atlas, 60, progress));
+    CHECK(lower_distortion(atlas, 1e-4, progress));
     CHECK(find_folds(atlas).none());
     CHECK(atlas.broken_faces() == 0);
     CHECK(l2_stretch(atlas) < before);
@@ -159,7 +159,7 @@ TEST_CASE("every step from the injective map on is free of folds, and lowering t
 TEST_CASE("the distortion energy is bounded below by that of isometries, and its gradient is its slope") {
   SimplifyResult made = simplification(shapes::sphere(3), 12);
   Progress progress;
-  const Atlas flat = made.overlay.coarsened();
+  const Atlas flat = std::move(made.overlay).coarsened().atlas;
   REQUIRE(find_folds(flat).none());
   std::vector<int> vertices, faces;
   const std::vector<char> interior = interior_vertices(flat);
