@@ -210,22 +210,40 @@ void Command::axis_number(const std::string& name, double& value, const std::str
   number(option_of(name), value, bounds.low, bounds.high, text);
 }
 
+void Command::axis_word(const std::string& name, ParameterizeOptions& options, const std::string& text) {
+  const Axis& word = axis(name);
+  CellOptions cell;
+  cell.parameterize = options;
+  app_->add_option_function<std::string>(
+          option_of(name),
+          [&options, &word](const std::string& given) {
+            CellOptions changed;
+            changed.parameterize = options;
+            word.set(changed, given);
+            options = changed.parameterize;
+          },
+          fmt::format("{} [{}; {}]", text, to_string(word.get(cell)), fmt::join(word.words, ", ")))
+      ->check([&word](const std::string& given) { return refusal(given, word.words); })
+      ->option_text("WORD");
+}
+
 void Command::parameterize_options(ParameterizeOptions& options) {
+  // The first option is taken first, wherever it stands on the line, so all others override it.
+  const std::vector<std::string> presets = {"default", "paper"};
+  app_->add_option_function<std::string>(
+          "--preset",
+          [&options](const std::string& word) { options = word == "paper" ? paper_options() : ParameterizeOptions(); },
+          fmt::format("what the options below are where they are not given: paper is its exact method [{}; {}]",
+                      presets.front(), fmt::join(presets, ", ")))
+      ->check([presets](const std::string& word) { return refusal(word, presets); })
+      ->option_text("WORD");
   axis_integer_or_auto("base_vertices", options.base_vertices, 0,
                        "base vertices to stop at; auto stops before metric distortion dominates the cost");
   axis_number("gamma", options.gamma, "weight of triangle shape in the cost");
   axis_number("mu", options.mu, "weight of area dispersion in the cost");
   axis_integer("relaxations", options.relaxations, "corner relaxations between solves at most");
-  const std::vector<std::string> objectives = axis("objective").words;
-  app_->add_option_function<std::string>(
-          "--objective",
-          [&options, objectives](const std::string& word) {
-            options.objective = word == objectives[0] ? Objective::Distortion : Objective::MeanValue;
-          },
-          fmt::format("what the map minimises: {} is the paper's linear system [{}; {}]", objectives[1],
-                      objective_name(options.objective), fmt::join(objectives, ", ")))
-      ->check([objectives](const std::string& word) { return refusal(word, objectives); })
-      ->option_text("WORD");
+  axis_word("objective", options, "what the map minimises: linear is the paper's global system");
+  axis_word("weights", options, "of the linear objective and of corner relaxation");
 }
 
 void Command::level_option(RemeshOptions& options) {

@@ -70,6 +70,7 @@ class Command {
   // Options with the bounds of the axis of that name.
   void axis_integer(const std::string& name, int& value, const std::string& text);
   void axis_integer_or_auto(const std::string& name, int& value, int automatic, const std::string& text);
+  void axis_word(const std::string& name, ParameterizeOptions& options, const std::string& text);
   void axis_number(const std::string& name, double& value, const std::string& text);
 
   CLI::App* app_;

@@ -16,7 +16,8 @@ using Kind = Axis::Kind;
 
 constexpr const char* kAuto = "auto";
 constexpr Method kMethods[] = {Method::Gsp, Method::Maps, Method::MapsSmoothed};
-constexpr Objective kObjectives[] = {Objective::Distortion, Objective::MeanValue};
+constexpr Objective kObjectives[] = {Objective::Distortion, Objective::Linear};
+constexpr Weights kWeights[] = {Weights::MeanValue, Weights::Cotangent, Weights::Uniform};
 constexpr double kMostWeight = 1e6;
 constexpr int kMostRelaxations = 1000;
 constexpr double kMostInt = std::numeric_limits<int>::max();
@@ -33,16 +34,17 @@ int integer_or_auto(const AxisValue& value, int automatic) {
   return std::holds_alternative<std::string>(value) ? automatic : static_cast<int>(integer(value));
 }
 
-std::vector<std::string> objective_words() {
+/// The names of the values of an enumeration, and the value of a name.
+template <class Values, class Name>
+std::vector<std::string> words_of(const Values& values, Name name) {
   std::vector<std::string> words;
-  for (Objective objective : kObjectives) words.emplace_back(objective_name(objective));
+  for (auto value : values) words.emplace_back(name(value));
   return words;
 }
 
-std::vector<std::string> wavelet_words() {
-  std::vector<std::string> words;
-  for (Wavelet wavelet : kWavelets) words.emplace_back(wavelet_name(wavelet));
-  return words;
+template <class Values, class Name>
+auto value_of(const Values& values, Name name, const AxisValue& given) {
+  return *std::find_if(std::begin(values), std::end(values), [&](auto value) { return word(given) == name(value); });
 }
 
 using Options = CellOptions;
@@ -77,12 +79,12 @@ std::vector<Axis> map_axes() {
        {kAuto},
        [](const Options& o) { return integer_or_auto(o.parameterize.base_vertices, 0); },
        [](Options& o, const Value& v) { o.parameterize.base_vertices = integer_or_auto(v, 0); }},
-      {"objective", kStage, Kind::Word, 0, 0, objective_words(),
+      {"objective", kStage, Kind::Word, 0, 0, words_of(kObjectives, objective_name),
        [](const Options& o) { return Value(objective_name(o.parameterize.objective)); },
-       [](Options& o, const Value& v) {
-         for (Objective objective : kObjectives)
-           if (word(v) == objective_name(objective)) o.parameterize.objective = objective;
-       }},
+       [](Options& o, const Value& v) { o.parameterize.objective = value_of(kObjectives, objective_name, v); }},
+      {"weights", kStage, Kind::Word, 0, 0, words_of(kWeights, weights_name),
+       [](const Options& o) { return Value(weights_name(o.parameterize.weights)); },
+       [](Options& o, const Value& v) { o.parameterize.weights = value_of(kWeights, weights_name, v); }},
       {"relaxations",
        kStage,
        Kind::Integer,
@@ -104,7 +106,7 @@ std::vector<Axis> code_axes() {
        {kAuto},
        [](const Options& o) { return integer_or_auto(o.remesh.level, RemeshOptions::kAutoLevel); },
        [](Options& o, const Value& v) { o.remesh.level = integer_or_auto(v, RemeshOptions::kAutoLevel); }},
-      {"wavelet", StageKind::Encode, Kind::Word, 0, 0, wavelet_words(),
+      {"wavelet", StageKind::Encode, Kind::Word, 0, 0, words_of(kWavelets, wavelet_name),
        [](const Options& o) { return Value(wavelet_name(o.encode.wavelet)); },
        [](Options& o, const Value& v) { o.encode.wavelet = wavelet_of(word(v)); }},
       {"precision_bits",
@@ -187,11 +189,7 @@ StageKind stage_of(const std::string& name) {
   throw Error(Cause::BadOption, "unknown stage " + name);
 }
 
-std::vector<std::string> map_method_words() {
-  std::vector<std::string> words;
-  for (Method method : kMethods) words.emplace_back(method_name(method));
-  return words;
-}
+std::vector<std::string> map_method_words() { return words_of(kMethods, method_name); }
 
 std::vector<std::string> method_words() {
   std::vector<std::string> words = map_method_words();
@@ -226,7 +224,7 @@ bool Axis::applies_to(const std::string& method) const {
   const std::string text = name;
   if (text == "method" || text == "samples" || text == "seed") return true;
   if (is_anchor(method)) return false;
-  return (text != "objective" && text != "relaxations") || method == method_name(Method::Gsp);
+  return (text != "objective" && text != "weights" && text != "relaxations") || method == method_name(Method::Gsp);
 }
 
 const std::vector<Axis>& axes() {

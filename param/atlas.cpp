@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "mesh/error.h"
+
 namespace gsp {
 
 namespace {
@@ -205,6 +207,34 @@ Parameterization Atlas::finish(std::vector<std::string> provenance) const {
     map.face_corners[f] = face_corners(f, frame);
   }
   return map;
+}
+
+Atlas atlas_of(const Parameterization& map) {
+  Atlas atlas;
+  atlas.surface = std::make_shared<Surface>(map.surface);
+  atlas.base = map.base;
+  atlas.fans = base_fans(map.base);
+  atlas.patch = map.patch;
+  atlas.position = map.position;
+  atlas.corner.assign(map.patch.size(), -1);
+  for (int b = 0; b < map.base.vertex_count(); ++b) atlas.corner[map.base.vertices[b]] = b;
+  const auto into = [&](int vertex, int chart) -> Transition {
+    const int from = map.patch[vertex];
+    if (from == chart) return {};
+    if (atlas.corner[vertex] >= 0) {
+      const BaseFan& fan = atlas.fans[atlas.corner[vertex]];
+      return fan.develop(fan.find(chart)).inverse() * fan.develop(fan.find(from));
+    }
+    for (int h = 3 * from; h < 3 * from + 3; ++h)
+      if (map.base.twins[h] >= 0 && map.base.twins[h] / 3 == chart) return map.base.across(h);
+    throw Error(Cause::Internal, "a vertex lies in another patch than its faces", Element::Vertex, vertex);
+  };
+  const Surface& surface = *atlas.surface;
+  for (int h : surface.edge_halfedge) {
+    const int chart = map.face_chart[h / 3];
+    atlas.transition.push_back(into(surface.halfedges.from(h), chart).inverse() * into(surface.halfedges.to(h), chart));
+  }
+  return atlas;
 }
 
 }  // namespace gsp

@@ -86,4 +86,8 @@ class Atlas {
   Parameterization finish(std::vector<std::string> provenance) const;
 };
 
+/// The atlas of a map every face of which lies in one base face, whose chart it is given in, such as that of a remesh onto
+/// its own base. Throws Error(Internal) where a vertex is in the patch of a base face that is not beside its faces' ones.
+Atlas atlas_of(const Parameterization& map);
+
 }  // namespace gsp

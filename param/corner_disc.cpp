@@ -115,7 +115,7 @@ void CornerDisc::straighten_border() {
   }
 }
 
-bool CornerDisc::solve(const EdgeWeights& weights) {
+bool CornerDisc::solve(const LinearWeights& weights) {
   std::vector<int> row(vertices_.size(), -1);
   int unknowns = 0;
   for (std::size_t i = 0; i < vertices_.size(); ++i)
@@ -123,21 +123,20 @@ bool CornerDisc::solve(const EdgeWeights& weights) {
   if (unknowns == static_cast<int>(vertices_.size())) return false;
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(unknowns, 2);
-  for (std::size_t i = 0; i < vertices_.size(); ++i) {
-    if (row[i] < 0) continue;
-    double sum = 0.0;
-    surface().for_each_neighbour(vertices_[i].vertex, [&](int w, int edge, bool forward) {
-      const double c = weights[edge][forward ? 0 : 1];
-      sum += c;
-      const int j = index_.at(w);
-      if (row[j] >= 0) {
-        entries.emplace_back(row[i], row[j], -c);
-      } else {
-        right(row[i], 0) += c * vertices_[j].disc.real();
-        right(row[i], 1) += c * vertices_[j].disc.imag();
-      }
-    });
-    entries.emplace_back(row[i], row[i], sum);
+  const auto add = [&](int i, int j, double weight) {
+    if (row[i] < 0) return;
+    entries.emplace_back(row[i], row[i], weight);
+    if (row[j] >= 0) {
+      entries.emplace_back(row[i], row[j], -weight);
+    } else {
+      right(row[i], 0) += weight * vertices_[j].disc.real();
+      right(row[i], 1) += weight * vertices_[j].disc.imag();
+    }
+  };
+  for (const Spring& s : weights.springs(faces())) {
+    const int i = index_.at(s.start), j = index_.at(s.end);
+    add(i, j, s.at_start);
+    add(j, i, s.at_end);
   }
   Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
   matrix.setFromTriplets(entries.begin(), entries.end());
@@ -146,6 +145,23 @@ bool CornerDisc::solve(const EdgeWeights& weights) {
   for (std::size_t i = 0; i < vertices_.size(); ++i)
     if (row[i] >= 0) vertices_[i].disc = {x(row[i], 0), x(row[i], 1)};
   return true;
+}
+
+/// Those that touch the inside, ascending.
+std::vector<int> CornerDisc::faces() const {
+  std::vector<int> faces;
+  for (const Vertex& v : vertices_) {
+    if (!v.inside) continue;
+    const int start = surface().halfedges.outgoing[v.vertex];
+    int h = start;
+    do {
+      faces.push_back(h / 3);
+      h = surface().halfedges.rotate_ccw(h);
+    } while (h != start);
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
 }
 
 bool CornerDisc::embedded() const {

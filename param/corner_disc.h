@@ -30,7 +30,7 @@ class CornerDisc {
   /// Lays out the vertices within the radius that are connected to the corner, and their rim. False where they are no disc.
   bool collect();
   /// Puts the inside where the weights want it, the corner free and the rim held. False where it could not be solved.
-  bool solve(const EdgeWeights& weights);
+  bool solve(const LinearWeights& weights);
   /// Whether every face that touches the inside is upright in the disc.
   bool embedded() const;
   /// The inside vertex nearest the middle, as an index into `vertices`.
@@ -54,6 +54,7 @@ class CornerDisc {
   void gather();
   bool lift();
   void straighten_border();
+  std::vector<int> faces() const;
   Complex to_disc(double radius, double angle) const { return std::polar(std::pow(radius, power_), angle * power_); }
 
   const Atlas& atlas_;

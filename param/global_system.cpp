@@ -40,39 +40,63 @@ void for_each_boundary_edge(const Atlas& atlas, Visit&& visit) {
   }
 }
 
+/// The equations w (z_i - t(z_j)) summed by rows i.
+class System {
+ public:
+  System(int unknowns, bool hermitian) : hermitian_(hermitian), right_(ComplexVector::Zero(unknowns)) {
+    entries_.reserve(static_cast<std::size_t>(unknowns) * (hermitian ? 5 : 8));
+  }
+
+  /// `column`: of z_j, -1 where it is held at `held`.
+  void add(int row, int column, double weight, const Transition& t, Complex held) {
+    entries_.emplace_back(row, row, weight);
+    if (column < 0) {
+      right_[row] += weight * t.apply(held);
+      return;
+    }
+    right_[row] += weight * t.translation.value();
+    // The lower triangle is enough of a Hermitian matrix.
+    if (!hermitian_ || column <= row) entries_.emplace_back(row, column, -weight * omega_power(t.rotation));
+  }
+
+  ComplexVector solve() const {
+    ComplexMatrix matrix(right_.size(), right_.size());
+    matrix.setFromTriplets(entries_.begin(), entries_.end());
+    return hermitian_ ? solve_hermitian(matrix, right_) : solve_sparse(matrix, right_);
+  }
+
+ private:
+  const bool hermitian_;
+  std::vector<Eigen::Triplet<Complex>> entries_;
+  ComplexVector right_;
+};
+
 }  // namespace
 
-std::vector<Complex> solve_global(const Atlas& atlas, const EdgeWeights& weights, const std::vector<char>& solved) {
-  const Surface& surface = *atlas.surface;
-  const int count = surface.mesh.vertex_count();
+std::vector<Complex> solve_global(const Atlas& atlas, const LinearWeights& weights, const std::vector<char>& solved) {
+  const int count = atlas.surface->mesh.vertex_count();
   std::vector<int> row(count, -1);
   int unknowns = 0;
   for (int v = 0; v < count; ++v)
     if (solved[v]) row[v] = unknowns++;
   if (unknowns == 0) return atlas.position;
 
-  std::vector<Eigen::Triplet<Complex>> entries;
-  entries.reserve(unknowns * 7);
-  ComplexVector right = ComplexVector::Zero(unknowns);
-  for (int v = 0; v < count; ++v) {
-    if (row[v] < 0) continue;
-    double sum = 0.0;
-    surface.for_each_neighbour(v, [&](int, int edge, bool forward) { sum += weights[edge][forward ? 0 : 1]; });
-    surface.for_each_neighbour(v, [&](int other, int edge, bool forward) {
-      const double c = weights[edge][forward ? 0 : 1] / sum;
-      const Transition t = atlas.towards(edge, forward);
-      if (row[other] < 0) {
-        right[row[v]] += c * t.apply(atlas.position[other]);
-      } else {
-        entries.emplace_back(row[v], row[other], -c * omega_power(t.rotation));
-        right[row[v]] += c * t.translation.value();
-      }
-    });
-    entries.emplace_back(row[v], row[v], 1.0);
+  const std::vector<Spring> springs = weights.springs(atlas);
+  const bool hermitian = weights.symmetric();
+  std::vector<double> sum(count, 0.0);
+  for (const Spring& s : springs) {
+    sum[s.start] += s.at_start;
+    sum[s.end] += s.at_end;
   }
-  ComplexMatrix matrix(unknowns, unknowns);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  const ComplexVector solution = solve_sparse(matrix, right);
+  System system(unknowns, hermitian);
+  for (const Spring& s : springs) {
+    const Transition back = s.to_start.inverse();
+    // Rows that sum to 1 condition the system better, but would make it no longer Hermitian.
+    const double start = hermitian ? s.at_start : s.at_start / sum[s.start], end = hermitian ? s.at_end : s.at_end / sum[s.end];
+    if (row[s.start] >= 0) system.add(row[s.start], row[s.end], start, s.to_start, atlas.position[s.end]);
+    if (row[s.end] >= 0) system.add(row[s.end], row[s.start], end, back, atlas.position[s.start]);
+  }
+  const ComplexVector solution = system.solve();
   std::vector<Complex> position = atlas.position;
   for (int v = 0; v < count; ++v)
     if (row[v] >= 0) position[v] = solution[row[v]];

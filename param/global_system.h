@@ -9,8 +9,9 @@ namespace gsp {
 
 /// Solves the global parameterization system (§3.2.1, equation 2), z_i = Σ c_ij τ_ij(z_j), for the vertices marked in
 /// `solved` (#V; never a patch corner), all others being held. Returns #V positions in the vertices' present charts, which
-/// they may have left. One direct factorization of a complex matrix. Throws Error(SolverFailed).
-std::vector<Complex> solve_global(const Atlas& atlas, const EdgeWeights& weights, const std::vector<char>& solved);
+/// they may have left. One direct factorization of a complex matrix, of Cholesky where the weights are symmetric.
+/// Throws Error(SolverFailed).
+std::vector<Complex> solve_global(const Atlas& atlas, const LinearWeights& weights, const std::vector<char>& solved);
 
 /// #V: vertices that are neither isolated, nor a patch corner, nor on a boundary.
 std::vector<char> interior_vertices(const Atlas& atlas);

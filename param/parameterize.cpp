@@ -10,26 +10,21 @@
 
 #include "mesh/atomic_file.h"
 #include "mesh/topology.h"
+#include "param/best_map.h"
 #include "param/folds.h"
-#include "param/global_system.h"
+#include "param/linear_map.h"
 #include "param/lower_distortion.h"
 #include "param/maps_smoothing.h"
 #include "param/relax_corners.h"
 #include "param/repair.h"
 #include "param/simplify.h"
-#include "param/smooth.h"
-#include "param/stretch.h"
 #include "param/weights.h"
 
 namespace gsp {
 
 namespace {
 
-constexpr double kRelaxationRadius = 0.45;  // in base edges; below 1/2 regions never meet
 constexpr double kRoughly = 2e-3, kFinely = 1e-4;  // gain of a step that ends lowering the distortion, between and after relaxations
-constexpr int kGuardedRounds = 3;
-constexpr int kPatience = 2;                // rounds before the paper's iteration can be given up,
-constexpr double kHopeless = 2e-4;          // where a larger share of faces is folded
 constexpr int kRings = 16;                    // of the discs that are untangled in the end
 constexpr int kAutomaticShare = 64;         // vertices per base vertex, of which the automatic stop falls short or not
 constexpr double kLongestEdge = 0.25;       // of the edge of an equilateral patch of mean area
@@ -53,6 +48,7 @@ std::vector<std::string> provenance(const Mesh& input, const ParameterizeOptions
           line("base_vertices_asked", options.base_vertices), line("gamma", options.gamma),
           line("mu", options.mu),                      line("relaxations", options.relaxations),
           line("objective", objective_name(options.objective)),
+          line("weights", weights_name(options.weights)),
           line("input_vertices", input.vertex_count()), line("input_faces", input.face_count())};
 }
 
@@ -70,67 +66,6 @@ struct Start {
   std::vector<OmegaRecord> omega;
 };
 
-/// Keeps the round of least stretch.
-class Best {
- public:
-  void offer(const Atlas& atlas, int round) {
-    const double stretch = l2_stretch(atlas);
-    if (round_ >= 0 && stretch >= stretch_) return;
-    atlas_ = atlas;
-    stretch_ = stretch;
-    round_ = round;
-  }
-  const Atlas& atlas() const { return atlas_; }
-  int round() const { return round_; }
-
- private:
-  Atlas atlas_;
-  double stretch_ = 0.0;
-  int round_ = -1;
-};
-
-/// The paper's iteration (§3.3, steps 2 to 4), folds and all, as long as few faces fold. It drives corners toward a
-/// conformal map, which starves long limbs until they fold.
-Atlas solve_and_relax(Atlas atlas, const ParameterizeOptions& options, ParameterizeResult& result, Progress& progress) {
-  atlas.position = boundary_by_arc_length(atlas);
-  const auto weights = mean_value_weights(*atlas.surface);
-  Best best;
-  for (int round = 0;; ++round) {
-    progress.report("solve and relax", double(round) / (options.relaxations + 1));
-    const int moved = options.relaxations == 0 ? 0 : relax_corners(atlas, weights, kRelaxationRadius, Folding::Allowed);
-    atlas.position = solve_global(atlas, weights, interior_vertices(atlas));
-    atlas.reassign_all();
-    best.offer(atlas, round);
-    const std::size_t folded = find_folds(atlas).faces.size();
-    result.flips_before_repair = static_cast<int>(folded);
-    if (round >= options.relaxations || moved == 0) break;
-    if (round >= kPatience && folded > kHopeless * atlas.surface->mesh.faces.size()) break;
-  }
-  result.relaxation_rounds = best.round();
-  return best.atlas();
-}
-
-/// The paper's solution. Where its folds do not come free it is approached over maps that have none.
-Atlas mean_value_map(const Start& start, const ParameterizeOptions& options, ParameterizeResult& result,
-                     Progress& progress) {
-  Atlas atlas = solve_and_relax(start.injective->atlas, options, result, progress);
-  if (repair_folds(atlas, kRings, progress).none()) {
-    atlas.reassign_all();
-    return atlas;
-  }
-  atlas = start.injective->atlas;
-  const auto weights = mean_value_weights(*atlas.surface);
-  Best best;
-  for (int round = 0; round < kGuardedRounds; ++round) {
-    progress.report("solve and relax without folds", double(round) / kGuardedRounds);
-    if (options.relaxations > 0) relax_corners(atlas, weights, kRelaxationRadius, Folding::Refused);
-    result.held_vertices = solve_without_folds(atlas, weights, progress);
-    best.offer(atlas, round);
-  }
-  result.relaxation_rounds = best.round();
-  return best.atlas();
-}
-
 /// The map of least distortion: from the initial map without its folds, lowering the energy and relaxing the corners in turn.
 Atlas low_distortion_map(const Start& start, const ParameterizeOptions& options,
                          ParameterizeResult& result, Progress& progress) {
@@ -139,8 +74,8 @@ Atlas low_distortion_map(const Start& start, const ParameterizeOptions& options,
   lower_distortion(rough.atlas, kRoughly, progress);
   // Where the map has become smooth it needs fewer added vertices.
   Atlas atlas = coarsen(std::move(rough)).atlas;
-  const auto weights = mean_value_weights(*atlas.surface);
-  Best best;
+  const LinearWeights weights(*atlas.surface, options.weights);
+  BestMap best;
   best.offer(atlas, 0);
   for (int round = 1; round <= options.relaxations; ++round) {
     if (relax_corners(atlas, weights, kRelaxationRadius, Folding::Refused) == 0) break;
@@ -156,8 +91,8 @@ Atlas low_distortion_map(const Start& start, const ParameterizeOptions& options,
 /// Makes the map without folds by the method and objective asked for, and counts how its corners moved.
 Atlas smooth_map(const Start& start, const ParameterizeOptions& options, ParameterizeResult& result,
                  Progress& progress) {
-  const Atlas atlas = options.objective == Objective::MeanValue
-                          ? mean_value_map(start, options, result, progress)
+  const Atlas atlas = options.objective == Objective::Linear
+                          ? linear_map(start.injective->atlas, options, result, progress)
                           : low_distortion_map(start, options, result, progress);
   for (int b = 0; b < atlas.base.vertex_count(); ++b)
     result.corners_moved += atlas.base.vertices[b] != start.maps.base.vertices[b];
@@ -221,8 +156,24 @@ ParameterizeResult finish(const Mesh& input, const Start& start, Method method, 
 
 }  // namespace
 
+ParameterizeOptions paper_options() {
+  ParameterizeOptions options;
+  options.objective = Objective::Linear;
+  options.weights = Weights::MeanValue;
+  return options;
+}
+
 const char* objective_name(Objective objective) {
-  return objective == Objective::MeanValue ? "mean-value" : "distortion";
+  return objective == Objective::Linear ? "linear" : "distortion";
+}
+
+const char* weights_name(Weights weights) {
+  switch (weights) {
+    case Weights::MeanValue: return "mean-value";
+    case Weights::Cotangent: return "cotangent";
+    case Weights::Uniform: return "uniform";
+  }
+  return "unknown";
 }
 
 const char* method_name(Method method) {

@@ -22,15 +22,26 @@ const char* method_name(Method method);
 /// What the smooth map of Method::Gsp minimises.
 enum class Objective {
   Distortion,  ///< `DistortionEnergy` over maps without folds: near-isometric, measured better in remeshing error and rate
-  MeanValue    ///< the paper's global linear system with mean value weights (§3.2.1), repaired where it folds
+  Linear       ///< the paper's global linear system (§3.2.1), repaired where it folds
 };
 
-/// "distortion", "mean-value".
+/// "distortion", "linear".
 const char* objective_name(Objective objective);
+
+/// Of the linear systems: the global one of Objective::Linear, and those on the discs of the corner relaxation.
+enum class Weights {
+  MeanValue,  ///< the paper's (Floater 2003): positive, not symmetric
+  Cotangent,  ///< on the intrinsic Delaunay triangulation: the map of least Dirichlet energy
+  Uniform     ///< 1: knows the connectivity alone
+};
+
+/// "mean-value", "cotangent", "uniform".
+const char* weights_name(Weights weights);
 
 struct ParameterizeOptions {
   Method method = Method::Gsp;
   Objective objective = Objective::Distortion;
+  Weights weights = Weights::MeanValue;
   /// Base vertices to stop at, at least 4. 0: automatic, before metric distortion dominates Ω (§3.1.1, figure 5d).
   /// The simplification stops earlier, with a note, where no vertex can be removed any more.
   int base_vertices = 0;
@@ -38,6 +49,10 @@ struct ParameterizeOptions {
   double mu = 1.0;     ///< weight of area dispersion in Ω, >= 0
   int relaxations = 4; ///< at most so many corner relaxations between solves, >= 0; it ends when no corner moves
 };
+
+/// Options of the paper's exact method: its linear system with mean value weights and its corner relaxation (§3.2), besides
+/// the repair of folds, since an invalid map is no result.
+ParameterizeOptions paper_options();
 
 /// One vertex removal: the three area-weighted parts of Ω, for figure 5d.
 struct OmegaRecord {
@@ -51,7 +66,7 @@ struct OmegaRecord {
 struct ParameterizeResult {
   Parameterization map;
   std::vector<OmegaRecord> omega;
-  int flips_before_repair = 0;  ///< of the initial map, or of the paper's solution with Objective::MeanValue
+  int flips_before_repair = 0;  ///< of the initial map, or of the paper's solution with Objective::Linear
   int relaxation_rounds = 0;
   int corners_moved = 0;
   int held_vertices = 0;  ///< kept back from the smooth solution, which would be folded there

@@ -13,7 +13,7 @@ constexpr double kShrink[] = {1.0, 0.6, 0.36};  // of the radius, where a larger
 
 /// Lays the whole region out from the disc, with the vertex nearest 0 drawn onto it. Where that would leave a fold, only
 /// moves the corner. False where the region is no disc or nothing would change for the better.
-bool relax(CornerDisc disc, const EdgeWeights& weights, CornerMove& move) {
+bool relax(CornerDisc disc, const LinearWeights& weights, CornerMove& move) {
   if (!disc.collect() || !disc.solve(weights) || !disc.embedded()) return false;
   const int nearest = disc.fan().boundary ? 0 : disc.nearest_to_center();
   CornerDisc drawn = disc;
@@ -24,7 +24,7 @@ bool relax(CornerDisc disc, const EdgeWeights& weights, CornerMove& move) {
 
 }  // namespace
 
-int relax_corners(Atlas& atlas, const EdgeWeights& weights, double radius, Folding folding) {
+int relax_corners(Atlas& atlas, const LinearWeights& weights, double radius, Folding folding) {
   int moved = 0;
   std::vector<char> done(atlas.fans.size(), 0);
   std::vector<char> inside(atlas.surface->mesh.positions.size(), 0), rim(inside);

@@ -11,7 +11,8 @@ namespace gsp {
 /// follow from the disc. Around a boundary corner the same is done in a half disc, and the corner stays. A region that is no
 /// disc, or would bring a fold where folds are refused, is tried smaller, then left alone. Regions are independent of each
 /// other and computed in parallel. Returns how many were laid out; the global system has to be solved again.
+inline constexpr double kRelaxationRadius = 0.45;
 enum class Folding { Allowed, Refused };
-int relax_corners(Atlas& atlas, const EdgeWeights& weights, double radius, Folding folding);
+int relax_corners(Atlas& atlas, const LinearWeights& weights, double radius, Folding folding);
 
 }  // namespace gsp

@@ -67,7 +67,7 @@ class Approach {
 
 }  // namespace
 
-int solve_without_folds(Atlas& atlas, const EdgeWeights& weights, Progress& progress) {
+int solve_without_folds(Atlas& atlas, const LinearWeights& weights, Progress& progress) {
   seat_boundary(atlas);
   Atlas goal = atlas;
   goal.position = boundary_by_arc_length(atlas);

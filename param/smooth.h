@@ -11,6 +11,6 @@ namespace gsp {
 /// (`repair_folds`); vertices around a fold that does not come free stay behind, the fewer the better. So the map stays
 /// free of folds; the number of vertices that stayed behind is returned. Afterwards vertices that left their patch have the chart
 /// they lie in. Throws Error(SolverFailed).
-int solve_without_folds(Atlas& atlas, const EdgeWeights& weights, Progress& progress);
+int solve_without_folds(Atlas& atlas, const LinearWeights& weights, Progress& progress);
 
 }  // namespace gsp

@@ -21,7 +21,8 @@ namespace {
 #ifdef GSP_SUITESPARSE
 template <class Matrix>
 using Solver = Eigen::UmfPackLU<Matrix>;
-using Cholesky = Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
+template <class Matrix>
+using Cholesky = Eigen::CholmodSupernodalLLT<Matrix, Eigen::Lower>;
 
 /// A threaded BLAS sums in an order that depends on the number of threads; results must not. CHOLMOD's own threads make
 /// loops that are too short for them, and take a fifth of its time.
@@ -38,10 +39,33 @@ void use_one_solver_thread() {
 #else
 template <class Matrix>
 using Solver = Eigen::SparseLU<Matrix, Eigen::COLAMDOrdering<int>>;
-using Cholesky = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
+template <class Matrix>
+using Cholesky = Eigen::SimplicialLLT<Matrix, Eigen::Lower>;
 
 void use_one_solver_thread() {}
 #endif
+
+/// CHOLMOD would write to standard output what its state says too.
+template <class Matrix>
+void keep_quiet(Cholesky<Matrix>& solver) {
+#ifdef GSP_SUITESPARSE
+  solver.cholmod().print = 0;
+#else
+  (void)solver;
+#endif
+}
+
+ComplexVector require_solved(ComplexVector x, const ComplexVector& residual, const ComplexVector& b) {
+  if (!(residual.norm() <= 1e-8 * (b.norm() + 1e-300)))
+    throw Error(Cause::SolverFailed, "the sparse system was solved with a residual of " + std::to_string(residual.norm()));
+  return x;
+}
+
+template <class AnySolver>
+void require_factorized(const AnySolver& solver, const ComplexVector& b) {
+  if (solver.info() != Eigen::Success)
+    throw Error(Cause::SolverFailed, "the sparse system of " + std::to_string(b.size()) + " unknowns was not factorized");
+}
 
 }  // namespace
 
@@ -50,13 +74,20 @@ ComplexVector solve_sparse(const ComplexMatrix& a, const ComplexVector& b) {
   use_one_solver_thread();
   Solver<ComplexMatrix> solver;
   solver.compute(a);
-  if (solver.info() != Eigen::Success)
-    throw Error(Cause::SolverFailed, "the sparse system of " + std::to_string(b.size()) + " unknowns was not factorized");
-  ComplexVector x = solver.solve(b);
-  const double residual = (a * x - b).norm();
-  if (!(residual <= 1e-8 * (b.norm() + 1e-300)))
-    throw Error(Cause::SolverFailed, "the sparse system was solved with a residual of " + std::to_string(residual));
-  return x;
+  require_factorized(solver, b);
+  const ComplexVector x = solver.solve(b);
+  return require_solved(x, a * x - b, b);
+}
+
+ComplexVector solve_hermitian(const ComplexMatrix& lower, const ComplexVector& b) {
+  if (b.size() == 0) return b;
+  use_one_solver_thread();
+  Cholesky<ComplexMatrix> solver;
+  keep_quiet(solver);
+  solver.compute(lower);
+  require_factorized(solver, b);
+  const ComplexVector x = solver.solve(b);
+  return require_solved(x, lower.selfadjointView<Eigen::Lower>() * x - b, b);
 }
 
 bool solve_sparse(const Eigen::SparseMatrix<double>& a, const Eigen::MatrixX2d& b, Eigen::MatrixX2d& x) {
@@ -73,15 +104,11 @@ bool solve_sparse(const Eigen::SparseMatrix<double>& a, const Eigen::MatrixX2d& 
 }
 
 struct CholeskySolver::Factor {
-  Cholesky llt;
+  Cholesky<Eigen::SparseMatrix<double>> llt;
   bool analysed = false;
 };
 
-CholeskySolver::CholeskySolver() : factor_(std::make_unique<Factor>()) {
-#ifdef GSP_SUITESPARSE
-  factor_->llt.cholmod().print = 0;  // it would write to standard output
-#endif
-}
+CholeskySolver::CholeskySolver() : factor_(std::make_unique<Factor>()) { keep_quiet(factor_->llt); }
 CholeskySolver::~CholeskySolver() = default;
 
 bool CholeskySolver::factorize(const Eigen::SparseMatrix<double>& lower) {

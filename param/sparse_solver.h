@@ -16,6 +16,9 @@ using ComplexVector = Eigen::VectorXcd;
 /// Throws Error(SolverFailed) where A is singular to working precision or the residual is larger than 1e-8 of b.
 ComplexVector solve_sparse(const ComplexMatrix& a, const ComplexVector& b);
 
+/// The same for a Hermitian positive definite system of which the lower triangle is given (CHOLMOD, or Eigen's LLT).
+ComplexVector solve_hermitian(const ComplexMatrix& lower, const ComplexVector& b);
+
 /// The same for a real system with two right-hand sides; false where it could not be solved.
 bool solve_sparse(const Eigen::SparseMatrix<double>& a, const Eigen::MatrixX2d& b, Eigen::MatrixX2d& x);
 

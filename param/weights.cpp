@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Geometry>
 
 #include "mesh/parallel.h"
+#include "param/intrinsic_triangulation.h"
 
 namespace gsp {
 
@@ -22,9 +24,7 @@ double half_angle_tangent(const Vec3& a, const Vec3& b) {
   return std::clamp(sine / (lengths + cosine), kSmallestTangent, kLargestTangent);
 }
 
-}  // namespace
-
-EdgeWeights mean_value_weights(const Surface& surface) {
+std::vector<std::array<double, 2>> mean_value_weights(const Surface& surface) {
   const auto& p = surface.mesh.positions;
   std::vector<std::array<double, 2>> weights(surface.edge_count());
   parallel_for(weights.size(), 4096, [&](std::size_t begin, std::size_t end) {
@@ -46,6 +46,66 @@ EdgeWeights mean_value_weights(const Surface& surface) {
     }
   });
   return weights;
+}
+
+}  // namespace
+
+LinearWeights::LinearWeights(const Surface& surface, Weights kind) : surface_(surface), kind_(kind) {
+  if (kind == Weights::MeanValue) edges_ = mean_value_weights(surface);
+  if (kind == Weights::Uniform) edges_.assign(surface.edge_count(), {1.0, 1.0});
+}
+
+std::vector<Spring> LinearWeights::springs(const Atlas& atlas) const {
+  if (kind_ == Weights::Cotangent) {
+    std::vector<int> faces(surface_.mesh.faces.size());
+    std::iota(faces.begin(), faces.end(), 0);
+    return delaunay_springs(faces, &atlas);
+  }
+  std::vector<Spring> springs;
+  springs.reserve(edges_.size());
+  for (int e = 0; e < surface_.edge_count(); ++e) {
+    const int h = surface_.edge_halfedge[e];
+    springs.push_back({surface_.halfedges.from(h), surface_.halfedges.to(h), atlas.transition[e], edges_[e][0], edges_[e][1]});
+  }
+  return springs;
+}
+
+std::vector<Spring> LinearWeights::springs(const std::vector<int>& faces) const {
+  if (kind_ == Weights::Cotangent) return delaunay_springs(faces, nullptr);
+  std::vector<Spring> springs;
+  for (int f : faces)
+    for (int h = 3 * f; h < 3 * f + 3; ++h) {
+      const int e = surface_.edge_of[h], twin = surface_.halfedges.twin[h];
+      // An edge between two of the faces once.
+      if (surface_.edge_halfedge[e] != h && std::binary_search(faces.begin(), faces.end(), twin / 3)) continue;
+      const bool forward = surface_.edge_halfedge[e] == h;
+      springs.push_back({surface_.halfedges.from(h), surface_.halfedges.to(h), {}, edges_[e][forward ? 0 : 1],
+                         edges_[e][forward ? 1 : 0]});
+    }
+  return springs;
+}
+
+/// With the transitions of a map where there is one.
+std::vector<Spring> LinearWeights::delaunay_springs(const std::vector<int>& faces, const Atlas* atlas) const {
+  IntrinsicTriangulation triangulation(surface_, faces);
+  std::vector<char> held(surface_.mesh.positions.size(), 0);
+  auto& halfedges = triangulation.halfedges();
+  for (std::size_t i = 0; atlas && i < halfedges.size(); ++i) {
+    const int h = 3 * faces[i / 3] + static_cast<int>(i % 3), e = surface_.edge_of[h];
+    halfedges[i].towards = atlas->towards(e, surface_.edge_halfedge[e] == h);
+    held[halfedges[i].from] = atlas->corner[halfedges[i].from] >= 0;
+  }
+  triangulation.make_delaunay(held);
+  std::vector<Spring> springs;
+  springs.reserve(halfedges.size() / 2);
+  for (int h = 0; h < static_cast<int>(halfedges.size()); ++h) {
+    const auto& [from, twin, length, towards] = halfedges[h];
+    if (twin >= 0 && twin < h) continue;
+    // Negative only between two corners, which are held, and on the border.
+    const double weight = std::max(triangulation.half_cotangent(h) + (twin >= 0 ? triangulation.half_cotangent(twin) : 0.0), 0.0);
+    springs.push_back({from, halfedges[Halfedges::next(h)].from, towards, weight, weight});
+  }
+  return springs;
 }
 
 }  // namespace gsp

@@ -81,6 +81,27 @@ TEST_CASE("every command that reads a file refuses one that is not there with st
   CHECK(files_in(folder) == 0);
 }
 
+TEST_CASE("a preset sets what the line does not say, wherever it stands") {
+  const TemporaryFolder folder;
+  const std::string mesh = write_bumpy(folder), map = folder.file("map.param.ply");
+  const auto made = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> line = {"parameterize", mesh, "-o", map, "--base-vertices", "40", "--json"};
+    line.insert(line.end(), more.begin(), more.end());
+    const Ran ran = gsp_run(line);
+    CAPTURE(ran.err);
+    REQUIRE(ran.status == 0);
+    return json::parse(ran.out);
+  };
+  const json paper = made({"--preset", "paper"});
+  CHECK(paper["objective"] == "linear");
+  CHECK(paper["weights"] == "mean-value");
+  const json varied = made({"--weights", "cotangent", "--preset", "paper"});
+  CHECK(varied["base_vertices"] == 40);
+  CHECK(varied["objective"] == "linear");
+  CHECK(varied["weights"] == "cotangent");
+  CHECK(made({})["objective"] == "distortion");
+}
+
 TEST_CASE("the chain of commands: surface, map, remesh, stream, prefix, distance") {
   const TemporaryFolder folder;
   const std::string mesh = write_bumpy(folder), map = folder.file("map.param.ply"), remeshed = folder.file("r.sr.ply"),

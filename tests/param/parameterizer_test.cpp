@@ -31,7 +31,7 @@ SimplifyResult simplification(Mesh mesh, int base_vertices) {
 Atlas simplified(Mesh mesh, int base_vertices) { return simplification(std::move(mesh), base_vertices).atlas; }
 
 /// The global solution, its folds and all.
-void solve(Atlas& atlas, const EdgeWeights& weights) {
+void solve(Atlas& atlas, const LinearWeights& weights) {
   seat_boundary(atlas);
   atlas.position = boundary_by_arc_length(atlas);
   atlas.position = solve_global(atlas, weights, interior_vertices(atlas));
@@ -87,7 +87,7 @@ TEST_CASE("solving, reassigning and relaxing never change the total area of the 
   for (Case& c : cases()) {
     INFO(c.name);
     Atlas atlas = simplified(c.mesh, c.base_vertices);
-    const auto weights = mean_value_weights(*atlas.surface);
+    const LinearWeights weights(*atlas.surface, Weights::MeanValue);
     for (int round = 0; round < 3; ++round) {
       solve(atlas, weights);
       CHECK(std::abs(area_excess(atlas)) < 1e-10);
@@ -100,7 +100,7 @@ TEST_CASE("solving, reassigning and relaxing never change the total area of the 
 
 TEST_CASE("moving vertices to other charts leaves the solution of the global system where it is") {
   Atlas atlas = simplified(shapes::sphere(3), 8);
-  const auto weights = mean_value_weights(*atlas.surface);
+  const LinearWeights weights(*atlas.surface, Weights::MeanValue);
   solve(atlas, weights);
   Atlas moved = atlas;
   for (int v = 0; v < moved.surface->mesh.vertex_count(); v += 3) {
@@ -119,7 +119,7 @@ TEST_CASE("a lattice torus onto a lattice base keeps the exact flat map") {
   // Every vertex has valence 6 and every face is equilateral in the chart: affine maps solve the uniform system exactly,
   // and on the flat disc below mean value weights reproduce them too (Floater 2003).
   Atlas atlas = simplified(shapes::sector_disc(6, 4), 7);
-  solve(atlas, mean_value_weights(*atlas.surface));
+  solve(atlas, LinearWeights(*atlas.surface, Weights::MeanValue));
   if (atlas.base.face_count() == 6 && atlas.corner[0] >= 0) {
     double least = 1e300, most = 0.0;
     for (int f = 0; f < atlas.surface->mesh.face_count(); ++f) {
@@ -140,7 +140,7 @@ TEST_CASE("every step from the injective map on is free of folds, and lowering t
     REQUIRE(find_folds(atlas).none());
     CHECK(atlas.broken_faces() == 0);
     CHECK(std::abs(area_excess(atlas)) < 1e-10);
-    const auto weights = mean_value_weights(*atlas.surface);
+    const LinearWeights weights(*atlas.surface, Weights::MeanValue);
     Atlas smooth = atlas;
     solve_without_folds(smooth, weights, progress);
     CHECK(find_folds(smooth).none());
@@ -188,7 +188,7 @@ TEST_CASE("beside its least the distortion energy curves as its convex Hessian s
   const SimplifyResult made = simplification(disc, 7);
   Atlas atlas = made.atlas;
   // The disc of six equilateral sectors on its six charts, which is an isometry up to scale.
-  for (int i = 0; i < 3; ++i) solve(atlas, mean_value_weights(*atlas.surface));
+  for (int i = 0; i < 3; ++i) solve(atlas, LinearWeights(*atlas.surface, Weights::MeanValue));
   std::vector<int> vertices, faces;
   for (int v = 0; v < disc.vertex_count(); ++v)
     if (atlas.is_free(v)) vertices.push_back(v);
@@ -250,7 +250,7 @@ TEST_CASE("splitting long edges leaves none, keeps the surface and puts new vert
 }
 
 TEST_CASE("both objectives give valid maps") {
-  for (Objective objective : {Objective::Distortion, Objective::MeanValue}) {
+  for (Objective objective : {Objective::Distortion, Objective::Linear}) {
     ParameterizeOptions options;
     options.base_vertices = 16;
     options.objective = objective;

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "mesh/progress.h"
+#include "param/atlas.h"
+#include "param/parameterize.h"
+
+namespace gsp {
+
+/// The paper's map (§3.3): the global system and the corner relaxation in turn, then its folds untangled. Where they do not
+/// come free the solution is approached over maps that have none. `injective` is a map without folds to start from, and so
+/// is the result. Fills the flips, rounds and held vertices of `result`. Throws Error: SolverFailed, Cancelled.
+Atlas linear_map(const Atlas& injective, const ParameterizeOptions& options, ParameterizeResult& result,
+                 Progress& progress);
+
+}  // namespace gsp
