@@ -1,5 +1,7 @@
 #include "param/parameterize.h"
 
+#include <cmath>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -7,6 +9,8 @@
 #include "cli/options.h"
 #include "cli/print.h"
 #include "experiments/cell_options.h"
+#include "experiments/gnuplot.h"
+#include "experiments/report/cost.h"
 #include "mesh/io.h"
 #include "param/param_file.h"
 
@@ -15,11 +19,24 @@ namespace gsp::cli {
 namespace {
 
 struct ParameterizeArguments {
-  std::string mesh, output, omega_csv;
+  std::string mesh, output, omega_csv, omega_plot;
   std::string method = "gsp";
   ParameterizeOptions parameterize;
   bool check = false;
 };
+
+/// Draws the cost of the removals to FOLDER/NAME.png, .svg and .gp for the path FOLDER/NAME, whatever ending it has.
+void draw_cost(const std::string& path, const std::string& mesh, const CostCurve& cost) {
+  const std::filesystem::path place(path);
+  const std::string name = place.stem().string(), folder = place.parent_path().string();
+  draw_figure(folder.empty() ? "." : folder, name, cost_script(name, std::filesystem::path(mesh).stem().string(), cost));
+}
+
+/// Where the stages of the simplification's cost begin, in vertices that remain; null where they were not reached.
+Json stages(const CostCurve& cost) {
+  const auto value = [](const std::optional<double>& at) { return at ? Json(std::lround(*at)) : Json(nullptr); };
+  return {{"second", value(cost.second_stage)}, {"third", value(cost.third_stage)}};
+}
 
 int run_parameterize(ParameterizeArguments& options, Context& context) {
   Progress progress = context.console.progress();
@@ -28,6 +45,8 @@ int run_parameterize(ParameterizeArguments& options, Context& context) {
   const ParameterizeResult result = parameterize(mesh, options.parameterize, progress);
   write_parameterization(options.output, result.map);
   if (!options.omega_csv.empty()) write_omega_csv(options.omega_csv, result.omega);
+  const CostCurve cost = cost_curve(result.omega);
+  if (!options.omega_plot.empty() && !cost.bins.empty()) draw_cost(options.omega_plot, options.mesh, cost);
 
   Json report = {{"method", options.method},
                  {"objective", objective_name(options.parameterize.objective)},
@@ -39,6 +58,7 @@ int run_parameterize(ParameterizeArguments& options, Context& context) {
                  {"flips_before_repair", result.flips_before_repair},
                  {"vertices_added", result.map.surface.vertex_count() - mesh.vertex_count()},
                  {"vertices_held", result.held_vertices},
+                 {"cost_stages_begin", stages(cost)},
                  {"output", options.output}};
   int status = 0;
   if (options.check) {
@@ -60,6 +80,8 @@ void add_parameterize(CLI::App& app, Context& context) {
   command.choice("--method", options->method, map_method_words(), "the paper's map, or a baseline on the same base");
   command.parameterize_options(options->parameterize);
   command.optional_file("--omega-csv", options->omega_csv, "also write the cost of every vertex removal (figure 5d)");
+  command.optional_file("--omega-plot", options->omega_plot,
+                        "also draw that cost with its three stages and the automatic stop: FILE's name with .png, .svg and .gp");
   command.flag("--check", options->check, "check the map face by face; exit status 1 where it is not valid");
   command.on_run([options, &context] { return run_parameterize(*options, context); });
 }

@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 using Kind = Axis::Kind;
 
 constexpr const char* kAuto = "auto";
-constexpr Method kMethods[] = {Method::Gsp, Method::Maps, Method::MapsSmoothed};
+constexpr Method kMethods[] = {Method::Gsp, Method::Maps, Method::MapsSmoothed, Method::Hybrid};
 constexpr Objective kObjectives[] = {Objective::Distortion, Objective::Linear};
 constexpr Weights kWeights[] = {Weights::MeanValue, Weights::Cotangent, Weights::Uniform};
 constexpr double kMostWeight = 1e6;
@@ -224,6 +224,7 @@ bool Axis::applies_to(const std::string& method) const {
   const std::string text = name;
   if (text == "method" || text == "samples" || text == "seed") return true;
   if (is_anchor(method)) return false;
+  if (text == "weights" && method == method_name(Method::Hybrid)) return true;
   return (text != "objective" && text != "weights" && text != "relaxations") || method == method_name(Method::Gsp);
 }
 

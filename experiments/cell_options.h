@@ -23,7 +23,7 @@ StageKind stage_of(const std::string& name);
 
 /// Everything that a cell depends on besides its surface.
 struct CellOptions {
-  std::string method = "gsp";        ///< gsp, maps, maps-smoothed, draco, decimate-draco
+  std::string method = "gsp";        ///< gsp, maps, maps-smoothed, hybrid, draco, decimate-draco
   ParameterizeOptions parameterize;  ///< whose `method` says nothing here
   RemeshOptions remesh;
   EncodeOptions encode;

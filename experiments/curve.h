@@ -16,7 +16,7 @@ namespace gsp {
 /// bounding-box diagonal, bytes are those that were decoded.
 struct CurvePoint {
   std::string model;
-  std::string method;  ///< gsp, maps, maps-smoothed, draco, decimate-draco
+  std::string method;  ///< gsp, maps, maps-smoothed, hybrid, draco, decimate-draco
   double gamma = 0.0, mu = 0.0;
   int base_vertices = 0, base_faces = 0, level = 0;
   std::string wavelet, coder;

@@ -116,10 +116,13 @@ void CornerDisc::straighten_border() {
 }
 
 bool CornerDisc::solve(const LinearWeights& weights) {
-  std::vector<int> row(vertices_.size(), -1);
+  std::vector<int> row(vertices_.size(), -1), inside;
   int unknowns = 0;
-  for (std::size_t i = 0; i < vertices_.size(); ++i)
-    if (vertices_[i].inside) row[i] = unknowns++;
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    if (!vertices_[i].inside) continue;
+    row[i] = unknowns++;
+    inside.push_back(vertices_[i].vertex);
+  }
   if (unknowns == static_cast<int>(vertices_.size())) return false;
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(unknowns, 2);
@@ -133,7 +136,7 @@ bool CornerDisc::solve(const LinearWeights& weights) {
       right(row[i], 1) += weight * vertices_[j].disc.imag();
     }
   };
-  for (const Spring& s : weights.springs(faces())) {
+  for (const Spring& s : weights.springs(atlas_, faces_around(surface(), inside))) {
     const int i = index_.at(s.start), j = index_.at(s.end);
     add(i, j, s.at_start);
     add(j, i, s.at_end);
@@ -145,23 +148,6 @@ bool CornerDisc::solve(const LinearWeights& weights) {
   for (std::size_t i = 0; i < vertices_.size(); ++i)
     if (row[i] >= 0) vertices_[i].disc = {x(row[i], 0), x(row[i], 1)};
   return true;
-}
-
-/// Those that touch the inside, ascending.
-std::vector<int> CornerDisc::faces() const {
-  std::vector<int> faces;
-  for (const Vertex& v : vertices_) {
-    if (!v.inside) continue;
-    const int start = surface().halfedges.outgoing[v.vertex];
-    int h = start;
-    do {
-      faces.push_back(h / 3);
-      h = surface().halfedges.rotate_ccw(h);
-    } while (h != start);
-  }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  return faces;
 }
 
 bool CornerDisc::embedded() const {

@@ -54,7 +54,6 @@ class CornerDisc {
   void gather();
   bool lift();
   void straighten_border();
-  std::vector<int> faces() const;
   Complex to_disc(double radius, double angle) const { return std::polar(std::pow(radius, power_), angle * power_); }
 
   const Atlas& atlas_;

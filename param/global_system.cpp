@@ -75,20 +75,22 @@ class System {
 
 std::vector<Complex> solve_global(const Atlas& atlas, const LinearWeights& weights, const std::vector<char>& solved) {
   const int count = atlas.surface->mesh.vertex_count();
-  std::vector<int> row(count, -1);
-  int unknowns = 0;
-  for (int v = 0; v < count; ++v)
-    if (solved[v]) row[v] = unknowns++;
-  if (unknowns == 0) return atlas.position;
+  std::vector<int> row(count, -1), vertices;
+  for (int v = 0; v < count; ++v) {
+    if (!solved[v]) continue;
+    row[v] = static_cast<int>(vertices.size());
+    vertices.push_back(v);
+  }
+  if (vertices.empty()) return atlas.position;
 
-  const std::vector<Spring> springs = weights.springs(atlas);
+  const std::vector<Spring> springs = weights.springs(atlas, faces_around(*atlas.surface, vertices));
   const bool hermitian = weights.symmetric();
   std::vector<double> sum(count, 0.0);
   for (const Spring& s : springs) {
     sum[s.start] += s.at_start;
     sum[s.end] += s.at_end;
   }
-  System system(unknowns, hermitian);
+  System system(static_cast<int>(vertices.size()), hermitian);
   for (const Spring& s : springs) {
     const Transition back = s.to_start.inverse();
     // Rows that sum to 1 condition the system better, but would make it no longer Hermitian.
@@ -98,8 +100,7 @@ std::vector<Complex> solve_global(const Atlas& atlas, const LinearWeights& weigh
   }
   const ComplexVector solution = system.solve();
   std::vector<Complex> position = atlas.position;
-  for (int v = 0; v < count; ++v)
-    if (row[v] >= 0) position[v] = solution[row[v]];
+  for (int v : vertices) position[v] = solution[row[v]];
   return position;
 }
 

@@ -79,7 +79,7 @@ void IntrinsicTriangulation::flip(int h, bool past_start) {
   }
 }
 
-void IntrinsicTriangulation::make_delaunay(const std::vector<char>& held) {
+void IntrinsicTriangulation::make_delaunay(const std::vector<int>& corner) {
   std::vector<int> open;
   for (int h = static_cast<int>(halfedges_.size()) - 1; h >= 0; --h)
     if (halfedges_[h].twin > h) open.push_back(h);
@@ -88,8 +88,8 @@ void IntrinsicTriangulation::make_delaunay(const std::vector<char>& held) {
     open.pop_back();
     if (!wants_flip(h)) continue;
     const int t = halfedges_[h].twin;
-    const bool past_start = !held[halfedges_[h].from];
-    if (!past_start && held[halfedges_[t].from]) continue;
+    const bool past_start = corner[halfedges_[h].from] < 0;
+    if (!past_start && corner[halfedges_[t].from] >= 0) continue;
     flip(h, past_start);
     --left;
     for (int side : {Halfedges::next(h), Halfedges::prev(h), Halfedges::next(t), Halfedges::prev(t)}) open.push_back(side);

@@ -27,9 +27,9 @@ class IntrinsicTriangulation {
   const std::vector<Halfedge>& halfedges() const { return halfedges_; }
 
   /// Flips edges until none is left whose opposite angles sum to more than π. The transition of a new edge is composed of
-  /// those past an end of the old one that is not `held`, #V of the surface: there transitions hold up to turns only. An
-  /// edge between two of them stays.
-  void make_delaunay(const std::vector<char>& held);
+  /// those past an end of the old one that is no patch corner (`corner`: #V of the surface, -1 where there is none), since
+  /// at corners transitions hold up to turns only. An edge between two corners stays.
+  void make_delaunay(const std::vector<int>& corner);
 
   /// Half the cotangent of the angle opposite to a half-edge.
   double half_cotangent(int h) const;

@@ -16,6 +16,7 @@
 #include "param/lower_distortion.h"
 #include "param/maps_smoothing.h"
 #include "param/relax_corners.h"
+#include "param/relax_patch_pairs.h"
 #include "param/repair.h"
 #include "param/simplify.h"
 #include "param/weights.h"
@@ -27,6 +28,7 @@ namespace {
 constexpr double kRoughly = 2e-3, kFinely = 1e-4;  // gain of a step that ends lowering the distortion, between and after relaxations
 constexpr int kRings = 16;                    // of the discs that are untangled in the end
 constexpr int kAutomaticShare = 64;         // vertices per base vertex, of which the automatic stop falls short or not
+constexpr int kPairPasses = 3;              // of the hybrid baseline; more bring it nearer to the global solution
 constexpr double kLongestEdge = 0.25;       // of the edge of an equilateral patch of mean area
 
 void check_options(const ParameterizeOptions& options) {
@@ -140,6 +142,8 @@ ParameterizeResult finish(const Mesh& input, const Start& start, Method method, 
   ParameterizeResult result;
   Atlas atlas = method == Method::Gsp ? smooth_map(start, options, result, progress) : start.maps;
   if (method == Method::MapsSmoothed) smooth_by_loop(atlas, progress);
+  if (method == Method::Hybrid)
+    relax_patch_pairs(atlas, LinearWeights(*atlas.surface, options.weights), kPairPasses, progress);
   result.map = atlas.finish(provenance(input, options, method, atlas));
   if (method == Method::Gsp) {
     const MapCheck check = check_map(result.map);
@@ -181,6 +185,7 @@ const char* method_name(Method method) {
     case Method::Gsp: return "gsp";
     case Method::Maps: return "maps";
     case Method::MapsSmoothed: return "maps-smoothed";
+    case Method::Hybrid: return "hybrid";
   }
   return "unknown";
 }

@@ -13,10 +13,11 @@ namespace gsp {
 enum class Method {
   Gsp,          ///< the paper: global system with transitions, corner relaxation (§3.2)
   Maps,         ///< the initial map of the simplification, as MAPS leaves it (Lee et al. 1998)
-  MapsSmoothed  ///< the same, smoothed by Loop subdivision on the parameters (the paper's figure 1a)
+  MapsSmoothed, ///< the same, smoothed by Loop subdivision on the parameters (the paper's figure 1a)
+  Hybrid        ///< the same, each pair of adjacent patches relaxed with its boundary held, several times (figure 1c)
 };
 
-/// "gsp", "maps", "maps-smoothed".
+/// "gsp", "maps", "maps-smoothed", "hybrid".
 const char* method_name(Method method);
 
 /// What the smooth map of Method::Gsp minimises.
@@ -65,7 +66,7 @@ struct OmegaRecord {
 
 struct ParameterizeResult {
   Parameterization map;
-  std::vector<OmegaRecord> omega;
+  std::vector<OmegaRecord> omega;  ///< a record a removal, and with an automatic base size that of the one it stopped at
   int flips_before_repair = 0;  ///< of the initial map, or of the paper's solution with Objective::Linear
   int relaxation_rounds = 0;
   int corners_moved = 0;
@@ -81,7 +82,8 @@ ParameterizeResult parameterize(const Mesh& mesh, const ParameterizeOptions& opt
 std::vector<ParameterizeResult> parameterize_all(const Mesh& mesh, const std::vector<Method>& methods,
                                                  const ParameterizeOptions& options, Progress& progress);
 
-/// Writes remaining_vertices, shape, dispersion, metric, omega, one row per removal.
+/// Writes remaining_vertices, shape, dispersion, metric, omega, one row per removal; where the base size is automatic the last
+/// row is the removal that was not made, since it begins the third stage.
 void write_omega_csv(const std::string& path, const std::vector<OmegaRecord>& record);
 
 }  // namespace gsp

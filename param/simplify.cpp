@@ -103,7 +103,10 @@ void Simplifier::remove_until_done() {
     pricer_.price(top.vertex, candidate_);
     if (!candidate_.feasible) continue;
     candidate_.parts.remaining_vertices = remaining_ - 1;
-    if (options_.base_vertices == 0 && stop.reached(candidate_.parts)) break;
+    if (options_.base_vertices == 0 && stop.reached(candidate_.parts)) {
+      record_.push_back(candidate_.parts);
+      break;
+    }
     if (!remove(top.vertex)) continue;
     record_.push_back(candidate_.parts);
     if (record_.size() % 4096 == 0)

@@ -13,7 +13,7 @@ namespace gsp {
 struct SimplifyResult {
   Atlas atlas;                      ///< with the initial map of the vertices, every edge classified
   OverlayMap overlay;               ///< the same map as a homeomorphism
-  std::vector<OmegaRecord> omega;   ///< one record per removal, in order
+  std::vector<OmegaRecord> omega;   ///< one record per removal, in order; then of that at which the automatic stop was
 };
 
 /// Builds the base complex by greedy vertex removal (§3.1), carrying the initial map and the edge classification.

@@ -1,5 +1,7 @@
 #include "param/surface.h"
 
+#include <algorithm>
+
 #include <Eigen/Geometry>
 
 namespace gsp {
@@ -92,6 +94,21 @@ Surface::Surface(Mesh input) : mesh(std::move(input)), halfedges(mesh) {
     }
   }
   vertex_area = voronoi_areas(mesh);
+}
+
+std::vector<int> faces_around(const Surface& surface, const std::vector<int>& vertices) {
+  std::vector<int> faces;
+  for (int v : vertices) {
+    const int start = surface.halfedges.outgoing[v];
+    for (int h = start; h >= 0;) {
+      faces.push_back(Halfedges::face(h));
+      h = surface.halfedges.rotate_ccw(h);
+      if (h == start) break;
+    }
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
 }
 
 int split_boundary_chords(Mesh& mesh) {

@@ -39,6 +39,9 @@ struct Surface {
   }
 };
 
+/// The faces at some vertices, ascending. O(n log n) of their number.
+std::vector<int> faces_around(const Surface& surface, const std::vector<int>& vertices);
+
 /// Splits every interior edge whose two ends lie on the boundary at its middle. Without this a face whose corners lie on
 /// one straight boundary edge of the base would have no area. New vertices come last; each split face is replaced in
 /// place, the further pieces come last. Returns the number of vertices added.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -55,47 +54,30 @@ LinearWeights::LinearWeights(const Surface& surface, Weights kind) : surface_(su
   if (kind == Weights::Uniform) edges_.assign(surface.edge_count(), {1.0, 1.0});
 }
 
-std::vector<Spring> LinearWeights::springs(const Atlas& atlas) const {
-  if (kind_ == Weights::Cotangent) {
-    std::vector<int> faces(surface_.mesh.faces.size());
-    std::iota(faces.begin(), faces.end(), 0);
-    return delaunay_springs(faces, &atlas);
-  }
+std::vector<Spring> LinearWeights::springs(const Atlas& atlas, const std::vector<int>& faces) const {
+  if (kind_ == Weights::Cotangent) return delaunay_springs(atlas, faces);
   std::vector<Spring> springs;
-  springs.reserve(edges_.size());
-  for (int e = 0; e < surface_.edge_count(); ++e) {
-    const int h = surface_.edge_halfedge[e];
-    springs.push_back({surface_.halfedges.from(h), surface_.halfedges.to(h), atlas.transition[e], edges_[e][0], edges_[e][1]});
-  }
-  return springs;
-}
-
-std::vector<Spring> LinearWeights::springs(const std::vector<int>& faces) const {
-  if (kind_ == Weights::Cotangent) return delaunay_springs(faces, nullptr);
-  std::vector<Spring> springs;
+  springs.reserve(2 * faces.size());
   for (int f : faces)
     for (int h = 3 * f; h < 3 * f + 3; ++h) {
       const int e = surface_.edge_of[h], twin = surface_.halfedges.twin[h];
-      // An edge between two of the faces once.
-      if (surface_.edge_halfedge[e] != h && std::binary_search(faces.begin(), faces.end(), twin / 3)) continue;
       const bool forward = surface_.edge_halfedge[e] == h;
-      springs.push_back({surface_.halfedges.from(h), surface_.halfedges.to(h), {}, edges_[e][forward ? 0 : 1],
-                         edges_[e][forward ? 1 : 0]});
+      // An edge between two of the faces once.
+      if (!forward && std::binary_search(faces.begin(), faces.end(), twin / 3)) continue;
+      springs.push_back({surface_.halfedges.from(h), surface_.halfedges.to(h), atlas.towards(e, forward),
+                         edges_[e][forward ? 0 : 1], edges_[e][forward ? 1 : 0]});
     }
   return springs;
 }
 
-/// With the transitions of a map where there is one.
-std::vector<Spring> LinearWeights::delaunay_springs(const std::vector<int>& faces, const Atlas* atlas) const {
+std::vector<Spring> LinearWeights::delaunay_springs(const Atlas& atlas, const std::vector<int>& faces) const {
   IntrinsicTriangulation triangulation(surface_, faces);
-  std::vector<char> held(surface_.mesh.positions.size(), 0);
   auto& halfedges = triangulation.halfedges();
-  for (std::size_t i = 0; atlas && i < halfedges.size(); ++i) {
+  for (std::size_t i = 0; i < halfedges.size(); ++i) {
     const int h = 3 * faces[i / 3] + static_cast<int>(i % 3), e = surface_.edge_of[h];
-    halfedges[i].towards = atlas->towards(e, surface_.edge_halfedge[e] == h);
-    held[halfedges[i].from] = atlas->corner[halfedges[i].from] >= 0;
+    halfedges[i].towards = atlas.towards(e, surface_.edge_halfedge[e] == h);
   }
-  triangulation.make_delaunay(held);
+  triangulation.make_delaunay(atlas.corner);
   std::vector<Spring> springs;
   springs.reserve(halfedges.size() / 2);
   for (int h = 0; h < static_cast<int>(halfedges.size()); ++h) {

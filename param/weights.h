@@ -32,15 +32,12 @@ class LinearWeights {
   /// Whether `at_start` and `at_end` are the same on all springs.
   bool symmetric() const { return kind_ != Weights::MeanValue; }
 
-  /// Those of a whole map on the surface.
-  std::vector<Spring> springs(const Atlas& atlas) const;
-
-  /// Those of some faces, distinct and ascending, that are laid into one plane: without transitions. Right at the vertices
-  /// that have all their faces among them; of no use at the others, which should be held.
-  std::vector<Spring> springs(const std::vector<int>& faces) const;
+  /// Those of a map on some faces, distinct and ascending. They are right at vertices that have all their faces among
+  /// them, and of no use at the others, which should be held.
+  std::vector<Spring> springs(const Atlas& atlas, const std::vector<int>& faces) const;
 
  private:
-  std::vector<Spring> delaunay_springs(const std::vector<int>& faces, const Atlas* atlas) const;
+  std::vector<Spring> delaunay_springs(const Atlas& atlas, const std::vector<int>& faces) const;
 
   const Surface& surface_;
   const Weights kind_;

@@ -1,10 +1,13 @@
 #include "experiments/report/cost.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
 
+#include "experiments/gnuplot.h"
 #include "mesh/error.h"
 #include "mesh/read_file.h"
 #include "param/automatic_stop.h"
@@ -87,6 +90,41 @@ CostCurve cost_curve(const std::vector<OmegaRecord>& record) {
     }
   curve.second_stage = break_of(curve.bins, curve.third_stage.value_or(0.0));
   return curve;
+}
+
+std::string cost_script(const std::string& name, const std::string& title, const CostCurve& cost) {
+  std::string setup =
+      "set logscale xy\nset key center left Left reverse\nset grid back lt 1 lw 1 lc rgb '#e4e4e4'\n"
+      "set xlabel 'vertices that remain'\nset ylabel 'cost {/Symbol W} times vertices that remain'\n"
+      "set format y '10^{%L}'\n";
+  setup += fmt::format("set xrange [{:.6g}:{:.6g}]\nset title {} noenhanced\n", cost.bins.front().remaining,
+                       cost.bins.back().remaining, gnuplot_quoted(title));
+  std::vector<double> borders = {cost.bins.front().remaining};
+  for (const std::optional<double>& at : {cost.second_stage, cost.third_stage}) {
+    if (!at) continue;
+    setup += fmt::format("set arrow from {0:.6g}, graph 0 to {0:.6g}, graph 1 nohead dt 2 lc rgb '#888888'\n", *at);
+    borders.push_back(*at);
+  }
+  if (cost.third_stage)
+    setup += fmt::format("set label 'automatic stop: {0:.0f}' at {0:.6g}, graph 0.97 right offset -0.5,0 tc rgb '#888888'\n",
+                         *cost.third_stage);
+  borders.push_back(cost.bins.back().remaining);
+  for (std::size_t stage = 1; stage < borders.size(); ++stage)
+    setup += fmt::format("set label {0} '{0}' at {1:.6g}, graph 0.05 center font ',16' tc rgb '#888888'\n", stage,
+                         std::sqrt(borders[stage - 1] * borders[stage]));
+  setup += "$cost << EOD\n";
+  for (const CostBin& bin : cost.bins) setup += fmt::format("{:.6g} {:.6g} {:.6g}\n", bin.remaining, bin.quality, bin.metric);
+  setup += "EOD\n";
+  const std::string commands =
+      "plot $cost using 1:($2+$3) with lines lw 3 lc rgb '#c8102e' title 'cost', '' using 1:2 with lines lw 2 lc rgb "
+      "'#1f5fa8' title 'triangle quality', '' using 1:3 with lines lw 2 lc rgb '#2b2b2b' title 'metric distortion'\n";
+  return figure_script(name, setup, commands, 900, 560);
+}
+
+std::string cost_in_words(const CostCurve& cost) {
+  return "1 mends ill-shaped triangles, 2 ascends slowly, 3 is ruled by metric distortion; " +
+         (cost.third_stage ? fmt::format("metric distortion takes over at {:.0f} vertices", *cost.third_stage)
+                           : "the base was reached before metric distortion took over");
 }
 
 std::vector<OmegaRecord> read_omega_csv(const std::string& path) {

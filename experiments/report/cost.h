@@ -30,6 +30,13 @@ struct CostCurve {
 
 CostCurve cost_curve(const std::vector<OmegaRecord>& record);
 
+/// The gnuplot program of NAME.png and NAME.svg: the cost and its two parts over the vertices that remain, the stages and
+/// the automatic stop marked. `cost` has bins.
+std::string cost_script(const std::string& name, const std::string& title, const CostCurve& cost);
+
+/// What the stages are and where the third begins, as half a sentence.
+std::string cost_in_words(const CostCurve& cost);
+
 /// Reads what `write_omega_csv` wrote. Throws Error: CannotOpen; Malformed with the line.
 std::vector<OmegaRecord> read_omega_csv(const std::string& path);
 

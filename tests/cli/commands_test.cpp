@@ -108,7 +108,8 @@ TEST_CASE("the chain of commands: surface, map, remesh, stream, prefix, distance
                     stream = folder.file("c.pgc"), decoded = folder.file("d.sr.ply"), omega = folder.file("omega.csv");
 
   const Ran made =
-      gsp_run({"parameterize", mesh, "-o", map, "--base-vertices", "40", "--omega-csv", omega, "--check", "--json"});
+      gsp_run({"parameterize", mesh, "-o", map, "--base-vertices", "40", "--omega-csv", omega, "--omega-plot",
+               folder.file("cost.png"), "--check", "--json"});
   CAPTURE(made.err);
   REQUIRE(made.status == 0);
   const json report = json::parse(made.out);
@@ -116,6 +117,8 @@ TEST_CASE("the chain of commands: surface, map, remesh, stream, prefix, distance
   CHECK(report["base_faces"] == 76);
   CHECK(report["check"]["valid"] == true);
   CHECK(size_of(omega) > 100);
+  CHECK(report["cost_stages_begin"].contains("third"));
+  for (const char* figure : {"cost.png", "cost.svg", "cost.gp"}) CHECK(size_of(folder.file(figure)) > 1000);
 
   const Ran distortion = gsp_run({"distortion", map, "--json", "--per-face", folder.file("faces.csv"), "--picture",
                                   folder.file("faces.ply"), "--colour", "smoothness"});

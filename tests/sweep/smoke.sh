@@ -11,5 +11,7 @@ if ! "$gsp" check "$store" --baseline "$here/smoke-baseline.json" --ignore-times
   echo "Where that is wanted: $gsp baseline $store -o tests/sweep/smoke-baseline.json"
   exit 1
 fi
-"$gsp" sweep experiments/recipes/smoke.toml --store "$store" --quiet --json | grep -q '"stages_run": 0' ||
+# Not piped: grep would close the pipe while the sweep still writes.
+again=$("$gsp" sweep experiments/recipes/smoke.toml --store "$store" --quiet --json)
+grep -q '"stages_run": 0' <<<"$again" ||
   { echo "a second sweep did not find everything done"; exit 1; }
