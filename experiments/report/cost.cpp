@@ -97,8 +97,10 @@ std::string cost_script(const std::string& name, const std::string& title, const
       "set logscale xy\nset key center left Left reverse\nset grid back lt 1 lw 1 lc rgb '#e4e4e4'\n"
       "set xlabel 'vertices that remain'\nset ylabel 'cost {/Symbol W} times vertices that remain'\n"
       "set format y '10^{%L}'\n";
-  setup += fmt::format("set xrange [{:.6g}:{:.6g}]\nset title {} noenhanced\n", cost.bins.front().remaining,
-                       cost.bins.back().remaining, gnuplot_quoted(title));
+  // The automatic stop is beyond the middle of the last bin.
+  const double last = std::min(cost.bins.back().remaining, cost.third_stage.value_or(cost.bins.back().remaining));
+  setup += fmt::format("set xrange [{:.6g}:{:.6g}]\nset title {} noenhanced\n", cost.bins.front().remaining, last,
+                       gnuplot_quoted(title));
   std::vector<double> borders = {cost.bins.front().remaining};
   for (const std::optional<double>& at : {cost.second_stage, cost.third_stage}) {
     if (!at) continue;
@@ -108,7 +110,7 @@ std::string cost_script(const std::string& name, const std::string& title, const
   if (cost.third_stage)
     setup += fmt::format("set label 'automatic stop: {0:.0f}' at {0:.6g}, graph 0.97 right offset -0.5,0 tc rgb '#888888'\n",
                          *cost.third_stage);
-  borders.push_back(cost.bins.back().remaining);
+  if (last < borders.back()) borders.push_back(last);
   for (std::size_t stage = 1; stage < borders.size(); ++stage)
     setup += fmt::format("set label {0} '{0}' at {1:.6g}, graph 0.05 center font ',16' tc rgb '#888888'\n", stage,
                          std::sqrt(borders[stage - 1] * borders[stage]));
