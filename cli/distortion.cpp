@@ -81,7 +81,8 @@ int run_distortion(const DistortionArguments& options, Context& context) {
                          {"smoothness",
                           {{"inside_patches", edges(s.inside, s.inside_edges)},
                            {"across_patch_edges", edges(s.across, s.across_edges)},
-                           {"at_corners", edges(s.at_corner, s.corner_edges)}}},
+                           {"at_corners", edges(s.at_corner, s.corner_edges)},
+                           {"across_over_inside", s.across_over_inside ? Json(*s.across_over_inside) : Json()}}},
                          {"degenerate_faces", d.degenerate_faces},
                          {"check", check_report(check_map(map))}});
   return 0;
@@ -103,7 +104,9 @@ void add_distortion(CLI::App& app, Context& context) {
       "the metric tensor's eigenvalues, which are the squares. stretch l2 is sqrt((s1^2 + s2^2)/2) and stretch linf s1\n"
       "(Sander 2001; of the map: RMS and maximum), sorkine max(s1, 1/s2), conformal s1/s2 + s2/s1, area symmetric\n"
       "s1*s2 + 1/(s1*s2). Each is printed with the value it has without distortion. Weights are areas on the surface.\n"
-      "smoothness is the difference of the first derivatives of neighbouring faces, unfolded into one plane (figure 1).");
+      "smoothness is the difference of the first derivatives of neighbouring faces, unfolded into one plane (figure 1).\n"
+      "across over inside is 1 where patch edges do not show: second derivatives across them over those inside patches at\n"
+      "the same distance from a corner.");
   command.on_run([options, &context] { return run_distortion(*options, context); });
 }
 

@@ -10,23 +10,26 @@ std::map<std::string, double> map_numbers(const ParameterizeResult& result, int 
   const MapCheck check = check_map(map);
   const Distortion d = distortion(map);
   const Smoothness s = smoothness(map);
-  return {{"base_vertices", map.base.vertex_count()},
-          {"base_faces", map.base.face_count()},
-          {"flipped_faces", check.flipped_faces},
-          {"wrong_angle_vertices", check.wrong_angle_vertices},
-          {"flips_before_repair", result.flips_before_repair},
-          {"vertices_added", map.surface.vertex_count() - input_vertices},
-          {"held_vertices", result.held_vertices},
-          {"corners_moved", result.corners_moved},
-          {"relaxation_rounds", result.relaxation_rounds},
-          {"anisotropy_mean", d.anisotropy.mean},
-          {"anisotropy_p95", d.anisotropy.p95},
-          {"area_symmetric_mean", d.area_symmetric.mean},
-          {"sorkine_mean", d.sorkine.mean},
-          {"l2_stretch", d.l2_stretch},
-          {"smoothness_inside", s.inside.mean},
-          {"smoothness_across", s.across.mean},
-          {"smoothness_at_corner", s.at_corner.mean}};
+  std::map<std::string, double> numbers = {
+      {"base_vertices", map.base.vertex_count()},
+      {"base_faces", map.base.face_count()},
+      {"flipped_faces", check.flipped_faces},
+      {"wrong_angle_vertices", check.wrong_angle_vertices},
+      {"flips_before_repair", result.flips_before_repair},
+      {"vertices_added", map.surface.vertex_count() - input_vertices},
+      {"held_vertices", result.held_vertices},
+      {"corners_moved", result.corners_moved},
+      {"relaxation_rounds", result.relaxation_rounds},
+      {"anisotropy_mean", d.anisotropy.mean},
+      {"anisotropy_p95", d.anisotropy.p95},
+      {"area_symmetric_mean", d.area_symmetric.mean},
+      {"sorkine_mean", d.sorkine.mean},
+      {"l2_stretch", d.l2_stretch},
+      {"smoothness_inside", s.inside.mean},
+      {"smoothness_across", s.across.mean},
+      {"smoothness_at_corner", s.at_corner.mean}};
+  if (s.across_over_inside) numbers["smoothness_across_over_inside"] = *s.across_over_inside;
+  return numbers;
 }
 
 }  // namespace gsp

@@ -24,7 +24,7 @@ struct StageResult {
   /// Parameterize: base_vertices, base_faces, flipped_faces, wrong_angle_vertices, flips_before_repair, vertices_added,
   /// held_vertices, corners_moved, relaxation_rounds; of distortion.h anisotropy_mean, anisotropy_p95,
   /// area_symmetric_mean, sorkine_mean, l2_stretch; of smoothness.h smoothness_inside, smoothness_across,
-  /// smoothness_at_corner (means).
+  /// smoothness_at_corner (means) and, where it has a value, smoothness_across_over_inside.
   /// Remesh: level, remesh_faces, remesh_error (larger RMS over the input's diagonal), remesh_forward, remesh_backward,
   /// remesh_hausdorff, ceiling_db (-20 log10 of remesh_error).
   /// Encode: stream_bytes, header_bytes, connectivity_bytes.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <map>
 
 #include <Eigen/LU>
 
@@ -56,13 +58,89 @@ Matrix2 derivative(const Vec3& edge, const Vec3& apex, Complex z_edge, Complex z
   return surface * chart.inverse();
 }
 
-double derivative_jump(const Diamond& d) {
+struct DerivativeJump {
+  double absolute;
+  double relative;  ///< to the mean of both derivatives; at most 2
+};
+
+DerivativeJump derivative_jump(const Diamond& d) {
   const Vec3 edge = d.to - d.from;
   const Complex z_edge = d.z_to - d.z_from;
-  return (derivative(edge, d.first_apex - d.from, z_edge, d.z_first - d.z_from, 1.0) -
-          derivative(edge, d.second_apex - d.from, z_edge, d.z_second - d.z_from, -1.0))
-      .norm();
+  const Matrix2 first = derivative(edge, d.first_apex - d.from, z_edge, d.z_first - d.z_from, 1.0);
+  const Matrix2 second = derivative(edge, d.second_apex - d.from, z_edge, d.z_second - d.z_from, -1.0);
+  const double jump = (first - second).norm();
+  return {jump, jump / (0.5 * (first.norm() + second.norm()))};
 }
+
+/// RMS of the jump of a quadratic function in these two triangles, over second derivatives whose components are
+/// independent and, as directions do not matter, of twice the variance on the diagonal; in units of that off it.
+/// With the edge from 0 to L along x and the apices at (a, h) and (b, -k) the jump is
+/// Hxx (a(a-L)/h + b(b-L)/k) / 2 + Hxy (a-b) + Hyy (h+k) / 2.
+double quadratic_jump(const Diamond& d) {
+  const double length = std::abs(d.z_to - d.z_from);
+  const Complex along = (d.z_to - d.z_from) / length;
+  const Complex first = (d.z_first - d.z_from) / along, second = (d.z_second - d.z_from) / along;
+  const double a = first.real(), h = first.imag(), b = second.real(), k = -second.imag();
+  return std::sqrt(0.5 * (std::pow(a * (a - length) / h + b * (b - length) / k, 2) + std::pow(h + k, 2)) + std::pow(a - b, 2));
+}
+
+/// Distance in the chart from the middle of the edge to the nearest corner; every corner about is a lattice point.
+double corner_distance(const Diamond& d) {
+  const Complex z = 0.5 * (d.z_from + d.z_to);
+  const double below = std::floor(z.imag() / kOmegaIm);
+  double squared = std::numeric_limits<double>::infinity();
+  for (const double row : {below, below + 1.0}) {
+    const double x = z.real() - kOmegaRe * row, y = z.imag() - kOmegaIm * row;
+    squared = std::min(squared, std::pow(x - std::round(x), 2) + y * y);
+  }
+  return std::sqrt(squared);
+}
+
+/// Second derivatives on edges inside and across, by distance from a corner.
+class BesideCorners {
+ public:
+  void add(bool inside, const Diamond& d, Weighted second_derivative) {
+    Ring& ring = rings_[static_cast<int>(std::floor(kRingsPerOctave * std::log2(corner_distance(d))))];
+    (inside ? ring.inside : ring.across).add(second_derivative);
+  }
+
+  std::optional<double> across_over_inside() const {
+    double across = 0.0, expected = 0.0;
+    for (const auto& [number, ring] : rings_) {
+      if (ring.inside.count < kFewest || ring.across.count == 0) continue;
+      across += ring.across.sum;
+      expected += ring.across.weight * ring.inside.sum / ring.inside.weight;
+    }
+    // Below that a second derivative is rounding.
+    if (!(expected > kRounding * weight_across())) return std::nullopt;
+    return across / expected;
+  }
+
+ private:
+  static constexpr double kRingsPerOctave = 4.0, kRounding = 1e-7;
+  static constexpr int kFewest = 16;  ///< edges whose mean says something
+
+  struct Sum {
+    double sum = 0.0, weight = 0.0;
+    int count = 0;
+    void add(const Weighted& w) {
+      sum += w.weight * w.value;
+      weight += w.weight;
+      ++count;
+    }
+  };
+  struct Ring {
+    Sum inside, across;
+  };
+
+  double weight_across() const {
+    double weight = 0.0;
+    for (const auto& [number, ring] : rings_) weight += ring.across.weight;
+    return weight;
+  }
+
+  std::map<int, Ring> rings_;
+};
 
 bool inside_triangle(const std::array<Complex, 4>& points) {
   return std::all_of(points.begin(), points.end(), [](Complex z) {
@@ -100,6 +178,7 @@ Smoothness smoothness(const Parameterization& map) {
   };
 
   std::vector<Weighted> inside, across, corners, all;
+  BesideCorners beside_corners;
   std::vector<double> length(maps.size(), 0.0);
   Smoothness result;
   result.faces.assign(maps.size(), 0.0);
@@ -108,10 +187,13 @@ Smoothness smoothness(const Parameterization& map) {
     if (edges[e].size() != 2) continue;
     const Diamond d = diamond(map, edges[e][0], edges[e][1]);
     if (!maps[d.first_face].counted() || !maps[d.second_face].counted()) continue;
-    const double jump = unit * derivative_jump(d);
-    const Weighted value = {jump, (maps[d.first_face].surface_area + maps[d.second_face].surface_area) / 3.0};
-    const bool near_corner = at_corner(d.first_face) || at_corner(d.second_face);
-    (near_corner ? corners : in_one_patch(map, d) ? inside : across).push_back(value);
+    const DerivativeJump relative_jump = derivative_jump(d);
+    const double jump = unit * relative_jump.absolute;
+    const double area = (maps[d.first_face].surface_area + maps[d.second_face].surface_area) / 3.0;
+    const Weighted value = {jump, area};
+    const bool near_corner = at_corner(d.first_face) || at_corner(d.second_face), in_patch = in_one_patch(map, d);
+    (near_corner ? corners : in_patch ? inside : across).push_back(value);
+    if (!near_corner) beside_corners.add(in_patch, d, {relative_jump.relative / quadratic_jump(d), area});
     all.push_back(value);
     for (int face : {d.first_face, d.second_face}) {
       result.faces[face] += (d.to - d.from).norm() * jump;
@@ -127,6 +209,7 @@ Smoothness smoothness(const Parameterization& map) {
   result.inside_edges = static_cast<int>(inside.size());
   result.across_edges = static_cast<int>(across.size());
   result.corner_edges = static_cast<int>(corners.size());
+  result.across_over_inside = beside_corners.across_over_inside();
   return result;
 }
 

@@ -129,6 +129,7 @@ TEST_CASE("the chain of commands: surface, map, remesh, stream, prefix, distance
   CHECK(measured["sorkine"]["neutral"] == 1);
   CHECK(measured["l2_stretch_of_map"] >= 1.0);
   CHECK(measured["smoothness"]["inside_patches"]["edges"] > 0);
+  CHECK(measured["smoothness"].contains("across_over_inside"));
   CHECK(size_of(folder.file("faces.csv")) > 1000);
   CHECK(size_of(folder.file("faces.ply")) > 1000);
 

@@ -12,12 +12,43 @@ using namespace gsp;
 namespace {
 
 /// A flat disc of equilateral base triangles around one corner, mapped isometrically for six sectors.
-Parameterization jittered_hexagon(int level, double jitter = 0.19) {
+Parameterization jittered_hexagon(int level, double jitter = 0.19, std::uint64_t seed = 3) {
   const Mesh base = shapes::sector_disc(6, 0);
   Parameterization map = exact_maps::quadrisected(base, level);
-  exact_maps::jitter(map, jitter, level, 3);
+  exact_maps::jitter(map, jitter, level, seed);
   exact_maps::flatten_onto_base(map, base);
   return map;
+}
+
+/// The power z^(6 / sectors), which is smooth around a corner of so many patches, on the middle of a disc of them.
+Parameterization power_disc(int sectors, int level, std::uint64_t seed) {
+  Parameterization map = exact_maps::quadrisected(shapes::sector_disc(sectors, 0), level);
+  exact_maps::jitter(map, 0.19, level, seed);
+  const double power = 6.0 / sectors;
+  std::vector<char> in_middle(map.surface.positions.size());
+  for (int v = 0; v < map.surface.vertex_count(); ++v) {
+    const Triangle& base = map.base.faces[map.patch[v]];
+    const int centre = static_cast<int>(std::find(base.begin(), base.end(), 0) - base.begin());
+    const Complex from_centre =
+        (map.position[v] - kChartCorners[centre].value()) / (kChartCorners[(centre + 1) % 3] - kChartCorners[centre]).value();
+    // Base face s spans the angles from 2 pi s / sectors.
+    const double angle = power * (std::arg(from_centre) + map.patch[v] * std::acos(-1.0) / 3.0);
+    const Complex image = std::polar(std::pow(std::abs(from_centre), power), angle);
+    map.surface.positions[v] = Vec3(image.real(), image.imag(), 0.0);
+    in_middle[v] = std::abs(from_centre) < 0.5;
+  }
+  Parameterization middle = map;
+  middle.surface.faces.clear();
+  middle.face_chart.clear();
+  middle.face_corners.clear();
+  for (int f = 0; f < map.surface.face_count(); ++f) {
+    const auto [a, b, c] = map.surface.faces[f];
+    if (!in_middle[a] || !in_middle[b] || !in_middle[c]) continue;
+    middle.surface.faces.push_back(map.surface.faces[f]);
+    middle.face_chart.push_back(map.face_chart[f]);
+    middle.face_corners.push_back(map.face_corners[f]);
+  }
+  return middle;
 }
 
 /// Two unit base triangles that share the edge from (0,0) to (1,0), one above and one below.
@@ -79,6 +110,46 @@ TEST_CASE("inside a smooth map the difference falls with the size of the faces, 
   CHECK(fine.across.mean > 0.8 * coarse.across.mean);
 }
 
+TEST_CASE("patch edges of a smooth map do not show, however fine or uneven its faces are") {
+  for (int level : {5, 6})
+    for (std::uint64_t seed : {1, 2, 3}) {
+      Parameterization map = jittered_hexagon(level, 0.19, seed);
+      for (Vec3& p : map.surface.positions)
+        p = Vec3(p.x() + 0.1 * std::sin(2.0 * p.y() + 1.0), p.y() + 0.05 * p.x() * p.x(), 0.3 * std::cos(p.x() - p.y()));
+      CHECK(smoothness(map).across_over_inside.value() == Approx(1.0).margin(0.06));
+    }
+}
+
+TEST_CASE("nor do they at a corner where every smooth map is singular, though the group's mean is larger") {
+  for (int sectors : {5, 7, 9})
+    for (int level : {5, 6}) {
+      const Smoothness s = smoothness(power_disc(sectors, level, sectors));
+      CHECK(s.across.mean > 1.2 * s.inside.mean);
+      CHECK(s.across_over_inside.value() == Approx(1.0).margin(0.06));
+    }
+}
+
+TEST_CASE("a kink at a patch edge shows, the more the finer the faces") {
+  const auto shown = [](int level) {
+    Parameterization map = jittered_hexagon(level, 0.19, 5);
+    for (Vec3& p : map.surface.positions)
+      p = Vec3(p.x() + 0.1 * p.x() * p.x(), p.y() + 0.1 * p.x() * p.y() + (p.y() < 0.0 ? 0.1 * p.y() : 0.0), 0.0);
+    return smoothness(map).across_over_inside.value();
+  };
+  const double coarse = shown(5), fine = shown(6);
+  CHECK(coarse > 1.5);
+  CHECK(fine - 1.0 == Approx(2.0 * (coarse - 1.0)).epsilon(0.15));
+}
+
+TEST_CASE("where a map is linear inside its patches there is nothing to compare patch edges with") {
+  CHECK_FALSE(smoothness(jittered_hexagon(4)).across_over_inside);
+  Parameterization kinked = rhombus(4);
+  for (Vec3& p : kinked.surface.positions)
+    if (p.y() < 0.0) p.y() *= 1.5;
+  CHECK_FALSE(smoothness(kinked).across_over_inside);
+  CHECK_FALSE(smoothness(Parameterization{}).across_over_inside);
+}
+
 TEST_CASE("the unit of the surface, its place and the numbering do not matter") {
   Parameterization map = exact_maps::quadrisected(shapes::icosahedron(), 3);
   exact_maps::jitter(map, 0.19, 3, 8);
@@ -93,6 +164,7 @@ TEST_CASE("the unit of the surface, its place and the numbering do not matter") 
   CHECK(after.across.p95 == Approx(before.across.p95).epsilon(1e-9));
   CHECK(after.at_corner.mean == Approx(before.at_corner.mean).epsilon(1e-9));
   CHECK(after.across_edges == before.across_edges);
+  CHECK(after.across_over_inside.value() == Approx(before.across_over_inside.value()).epsilon(1e-9));
 }
 
 TEST_CASE("degenerate faces and empty maps leave finite numbers") {
