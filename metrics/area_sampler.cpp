@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mesh/error.h"
+#include "mesh/parallel.h"
 #include "mesh/random.h"
 
 namespace gsp {
@@ -59,12 +60,22 @@ std::array<double, 2> triangle_point(double r, std::uint32_t random) {
 
 }  // namespace
 
+struct AreaSampler::Span {
+  double begin, end;
+  double weight;
+  Vec3 corner, edge1, edge2;
+};
+
 AreaSampler::AreaSampler(const Mesh& mesh, const std::vector<int>& order, std::vector<float> density, std::size_t samples,
                          std::uint64_t seed)
     : mesh_(mesh), order_(order), density_(std::move(density)), cumulative_(order.size() + 1, 0.0), samples_(samples), seed_(seed) {
+  constexpr std::size_t kGrain = 8192;
+  parallel_for(order.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) cumulative_[i + 1] = face_area(mesh, order[i]);
+  });
   double area = 0.0;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const double face = face_area(mesh, order[i]);
+    const double face = cumulative_[i + 1];
     area += face;
     cumulative_[i + 1] = cumulative_[i] + (density_.empty() ? face : face * density_[i]);
   }
@@ -72,30 +83,37 @@ AreaSampler::AreaSampler(const Mesh& mesh, const std::vector<int>& order, std::v
   density_scale_ = cumulative_.back() / area;
 }
 
+AreaSampler::Span AreaSampler::span(std::size_t place) const {
+  const Triangle& corners = mesh_.faces[order_[place]];
+  const Vec3& corner = mesh_.positions[corners[0]];
+  return {cumulative_[place], cumulative_[place + 1], density_.empty() ? 1.0 : density_scale_ / density_[place],
+          corner, mesh_.positions[corners[1]] - corner, mesh_.positions[corners[2]] - corner};
+}
+
+std::size_t AreaSampler::place_of(double target) const {
+  const auto after = std::upper_bound(cumulative_.begin(), cumulative_.end(), target);
+  const auto last = std::lower_bound(cumulative_.begin(), cumulative_.end(), cumulative_.back());
+  return static_cast<std::size_t>(std::min(after, last) - cumulative_.begin()) - 1;
+}
+
 void AreaSampler::sample(std::size_t begin, std::size_t end, Vec3* out, double* weight) const {
   const double stratum = cumulative_.back() / static_cast<double>(samples_);
   Random random(seed_ + 0xd1b54a32d192ed03ULL * (begin / kBlock + 1));
-  std::size_t place = 0;
+  std::size_t place = place_of(static_cast<double>(begin) * stratum);
+  Span face = span(place);
   for (std::size_t k = begin; k < end; ++k) {
     const std::uint64_t bits = random.next();
     const double jitter = static_cast<double>(bits >> 32) * 0x1.0p-32;
     const double target = std::min((static_cast<double>(k) + jitter) * stratum, cumulative_.back());
-    if (k == begin || target >= cumulative_[place + 1]) {
-      // A few steps reach the next face; a search serves the block's start and long runs of faces without area.
-      for (int step = 0; step < 8 && k != begin && place + 1 < order_.size() && target >= cumulative_[place + 1]; ++step)
-        ++place;
-      if (k == begin || target >= cumulative_[place + 1]) {
-        const auto after = std::upper_bound(cumulative_.begin(), cumulative_.end(), target);
-        const auto last = std::lower_bound(cumulative_.begin(), cumulative_.end(), cumulative_.back());
-        place = static_cast<std::size_t>(std::min(after, last) - cumulative_.begin()) - 1;
-      }
+    if (target >= face.end) {
+      // A few steps reach the next face; a search serves long runs of faces without area.
+      for (int step = 0; step < 8 && place + 1 < order_.size() && target >= cumulative_[place + 1]; ++step) ++place;
+      if (target >= cumulative_[place + 1]) place = place_of(target);
+      face = span(place);
     }
-    const double area = cumulative_[place + 1] - cumulative_[place];
-    const auto [s, t] = triangle_point((target - cumulative_[place]) / area, static_cast<std::uint32_t>(bits));
-    const Triangle& corners = mesh_.faces[order_[place]];
-    const Vec3& a = mesh_.positions[corners[0]];
-    out[k - begin] = a + s * (mesh_.positions[corners[1]] - a) + t * (mesh_.positions[corners[2]] - a);
-    weight[k - begin] = density_.empty() ? 1.0 : density_scale_ / density_[place];
+    const auto [s, t] = triangle_point((target - face.begin) / (face.end - face.begin), static_cast<std::uint32_t>(bits));
+    out[k - begin] = face.corner + s * face.edge1 + t * face.edge2;
+    weight[k - begin] = face.weight;
   }
 }
 

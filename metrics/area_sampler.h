@@ -26,6 +26,8 @@ class AreaSampler {
   void sample(std::size_t begin, std::size_t end, Vec3* out, double* weight) const;
 
   std::size_t samples() const { return samples_; }
+  /// #F+1, area times density of the faces before each place of the order.
+  const std::vector<double>& cumulative() const { return cumulative_; }
 
   static constexpr std::size_t kBlock = 4096;
 
@@ -33,7 +35,12 @@ class AreaSampler {
   const Mesh& mesh_;
   const std::vector<int>& order_;
   std::vector<float> density_;
-  std::vector<double> cumulative_;  ///< #F+1, area times density before each place of the order
+  /// A face and where its part of the line begins.
+  struct Span;
+  Span span(std::size_t place) const;
+  std::size_t place_of(double target) const;
+
+  std::vector<double> cumulative_;
   double density_scale_ = 1.0;      ///< mean over area of the density
   std::size_t samples_;
   std::uint64_t seed_;

@@ -13,8 +13,6 @@ namespace gsp {
 
 namespace {
 
-/// Share of the samples that look where the others are worth most, and how many of them are enough.
-constexpr std::size_t kPilotShare = 8, kMostPilots = 1 << 19;
 /// Samples that the quantile is taken from: its own error is then far below the width of a bin's share.
 constexpr std::size_t kQuantileSamples = 1 << 20;
 /// The pilot's random numbers are not those of the samples.
@@ -112,9 +110,8 @@ OneWayDistance sampled_distance(const Mesh& from, const TriangleTree& from_tree,
   std::size_t samples = options.samples;
   while (true) {
     progress.report(stage, 0.0);
-    const AreaSampler sampler(from, from_tree.order(),
-                              sample_density(from, from_tree, to, std::min(samples / kPilotShare, kMostPilots), options.seed ^ kPilotSeed), samples,
-                              options.seed);
+    const AreaSampler sampler(from, from_tree.order(), sample_density(from, from_tree, to, samples, options.seed ^ kPilotSeed),
+                              samples, options.seed);
     const OneWayDistance result = measure(sampler, to, diagonal, stage, progress);
     const double error = result.standard_error_db();
     if (options.tolerance_db == 0.0 || error <= options.tolerance_db || samples >= options.most_samples ||

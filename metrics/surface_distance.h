@@ -66,8 +66,8 @@ struct SurfaceDistance {
 };
 
 /// Distance between surface `a` (the reference) and `b`, both ways (algorithms.md §7). Mean, RMS and quantile are those
-/// over area. Samples are one per stratum; strata are smaller where an eighth as many samples (at most 2^19), taken before,
-/// found the squared distance to vary (sample_density.h), and each sample weighs as the area it stands for.
+/// over area. Samples are one per stratum; strata are smaller where the vertices and samples taken before found the
+/// squared distance to vary (sample_density.h), and each sample weighs as the area it stands for.
 /// The same bits for any number of threads. Throws Error(NoFaces, BadOption).
 SurfaceDistance surface_distance(const Mesh& a, const Mesh& b, const DistanceOptions& options, Progress& progress);
 

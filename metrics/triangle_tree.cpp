@@ -1,6 +1,7 @@
 #include "metrics/triangle_tree.h"
 
 #include <array>
+#include <bit>
 #include <cfloat>
 #include <limits>
 
@@ -12,7 +13,7 @@
 /// Compiles a function with all it calls again for AVX2 and AVX-512, chosen when the program starts. The bits are the same:
 /// lanes work alone, in the same order of operations, and contraction is off.
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__)
-#define GSP_VECTOR_CLONES __attribute__((target_clones("avx512f", "avx2", "default"), flatten))
+#define GSP_VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default"), flatten))
 #else
 #define GSP_VECTOR_CLONES
 #endif
@@ -21,7 +22,7 @@ namespace gsp {
 
 namespace {
 
-using Lanes = float __attribute__((vector_size(16)));
+using Lanes = float __attribute__((vector_size(64)));
 
 /// Boxes are widened by this much of the unit box, four times what the conversion to float can lose.
 constexpr float kOutward = 0x1.0p-22f;
@@ -186,16 +187,23 @@ float TriangleTree::bound(const double* squared) const {
 }
 
 void TriangleTree::distances(const Node& node, const QueryBox& box, float* squared) {
-  Lanes sum = {0, 0, 0, 0};
+  Lanes sum = {};
   for (int k = 0; k < 3; ++k) {
     const Lanes low = *reinterpret_cast<const Lanes*>(node.low[k]), high = *reinterpret_cast<const Lanes*>(node.high[k]);
     const Lanes below = low - box.high[k], above = box.low[k] - high;
     Lanes gap = below > above ? below : above;
-    const Lanes zero = {0, 0, 0, 0};
+    const Lanes zero = {};
     gap = gap > zero ? gap : zero;
     sum += gap * gap;
   }
   *reinterpret_cast<Lanes*>(squared) = sum;
+}
+
+std::uint32_t TriangleTree::within(const Node& node, const QueryBox& box, float limit, float* squared) {
+  distances(node, box, squared);
+  std::uint32_t children = 0;
+  for (int c = 0; c < kWidth; ++c) children |= static_cast<std::uint32_t>(squared[c] <= limit) << c;
+  return children;
 }
 
 template <int G>
@@ -210,17 +218,18 @@ void TriangleTree::search(const PointGroup<G>& points, double* squared, int& hin
     int level;
     float distance;
   };
-  // A node leaves at most three siblings behind on each of at most 16 levels.
-  Pending stack[64];
+  // A node leaves at most fifteen siblings behind on each of at most eight levels.
+  Pending stack[128];
   int depth = 0;
   stack[depth++] = {0, static_cast<int>(levels_.size()) - 1, 0.0f};
   while (depth > 0) {
     const Pending top = stack[--depth];
     if (top.distance > limit) continue;
-    alignas(16) float distance[kWidth];
-    distances(levels_[top.level][top.node], box, distance);
+    alignas(64) float distance[kWidth];
+    std::uint32_t children = within(levels_[top.level][top.node], box, limit, distance);
     if (top.level == 0) {
-      for (int c = 0; c < kWidth; ++c) {
+      for (; children != 0; children &= children - 1) {
+        const int c = std::countr_zero(children);
         if (distance[c] > limit) continue;
         const int triangle = static_cast<int>(kWidth * top.node) + c;
         const double before = squared[G - 1];
@@ -232,8 +241,8 @@ void TriangleTree::search(const PointGroup<G>& points, double* squared, int& hin
     }
     // Farthest first onto the stack, so that the nearest child is next.
     const int first = depth;
-    for (int c = 0; c < kWidth; ++c) {
-      if (distance[c] > limit) continue;
+    for (; children != 0; children &= children - 1) {
+      const int c = std::countr_zero(children);
       int at = depth++;
       while (at > first && stack[at - 1].distance < distance[c]) {
         stack[at] = stack[at - 1];
@@ -248,7 +257,7 @@ GSP_VECTOR_CLONES void TriangleTree::nearest(const PointGroup<kGroupSize>& point
   search<kGroupSize>(points, squared, hint);
 }
 
-double TriangleTree::nearest(const Vec3& point, int& hint) const {
+GSP_VECTOR_CLONES double TriangleTree::nearest(const Vec3& point, int& hint) const {
   const PointGroup<1> single = {{point.x()}, {point.y()}, {point.z()}};
   double squared = 0.0;
   search<1>(single, &squared, hint);
@@ -269,11 +278,11 @@ double TriangleTree::squared_plane_distance(int place, const Vec3& point) const 
   return offset.squaredNorm();
 }
 
-int TriangleTree::descend(const Vec3& point) const {
+GSP_VECTOR_CLONES int TriangleTree::descend(const Vec3& point) const {
   const QueryBox box = query_box(PointGroup<1>{{point.x()}, {point.y()}, {point.z()}});
   std::size_t node = 0;
   for (std::size_t level = levels_.size(); level-- > 0;) {
-    alignas(16) float distance[kWidth];
+    alignas(64) float distance[kWidth];
     distances(levels_[level][node], box, distance);
     node = kWidth * node + (std::min_element(distance, distance + kWidth) - distance);
   }

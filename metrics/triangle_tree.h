@@ -11,8 +11,8 @@ namespace gsp {
 /// Points that `TriangleTree::nearest` takes at once, to share one walk through the tree.
 inline constexpr int kGroupSize = 8;
 
-/// Bounding volume hierarchy over the triangles of a mesh: a complete tree of four children a node over triangles sorted by
-/// median splits, so that positions stand for pointers. Boxes are kept in float, in coordinates scaled to [-1, 1] and
+/// Bounding volume hierarchy over the triangles of a mesh: a complete tree of sixteen children a node over triangles sorted
+/// by median splits, so that positions stand for pointers. Boxes are kept in float, in coordinates scaled to [-1, 1] and
 /// rounded outward, so a box never hides a nearer triangle; triangles are kept in double.
 /// About 140 bytes a triangle. O(F log F) to build, on all threads.
 class TriangleTree {
@@ -41,9 +41,9 @@ class TriangleTree {
   int descend(const Vec3& point) const;
 
  private:
-  static constexpr int kWidth = 4;
-  /// Boxes of the four children, coordinate by coordinate; children that do not exist are infinitely far.
-  struct alignas(16) Node {
+  static constexpr int kWidth = 16;
+  /// Boxes of the children, coordinate by coordinate; children that do not exist are infinitely far.
+  struct alignas(64) Node {
     float low[3][kWidth], high[3][kWidth];
   };
   struct QueryBox {
@@ -58,6 +58,8 @@ class TriangleTree {
   template <int G>
   float bound(const double* squared) const;
   static void distances(const Node& node, const QueryBox& box, float* squared);
+  /// The same, and the children that are at most `limit` away, a bit each.
+  static std::uint32_t within(const Node& node, const QueryBox& box, float limit, float* squared);
   template <int G>
   void search(const PointGroup<G>& points, double* squared, int& hint) const;
 
