@@ -4,6 +4,7 @@
 
 #include "cli/options.h"
 #include "cli/print.h"
+#include "mesh/error.h"
 #include "mesh/io.h"
 #include "metrics/hausdorff.h"
 #include "metrics/metro.h"
@@ -22,9 +23,18 @@ struct DistanceArguments {
   bool metro = false, mpeg = false;
 };
 
+SurfaceTree tree_of(const Mesh& mesh, const std::string& path) {
+  try {
+    return SurfaceTree(mesh);
+  } catch (const Error& error) {
+    throw error.within(path);
+  }
+}
+
 /// Both surfaces and their trees, each built once for all that is measured.
 struct Pair {
-  explicit Pair(const DistanceArguments& options) : a(read_mesh(options.a)), b(read_mesh(options.b)), tree_a(a), tree_b(b) {}
+  explicit Pair(const DistanceArguments& options)
+      : a(read_mesh(options.a)), b(read_mesh(options.b)), tree_a(tree_of(a, options.a)), tree_b(tree_of(b, options.b)) {}
   Mesh a, b;
   SurfaceTree tree_a, tree_b;
 };

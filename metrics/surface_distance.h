@@ -11,9 +11,10 @@
 namespace gsp {
 
 /// Exact nearest point on a triangle surface: a bounding volume hierarchy, built once, asked from any thread.
-/// A triangle without area still is a segment or a point that can be the nearest. Throws Error(NoFaces).
+/// A triangle without area still is a segment or a point that can be the nearest.
 class SurfaceTree {
  public:
+  /// Throws the errors of `require_finite_surface`.
   explicit SurfaceTree(const Mesh& mesh);
   ~SurfaceTree();
   SurfaceTree(SurfaceTree&&) noexcept;
@@ -68,7 +69,7 @@ struct SurfaceDistance {
 /// Distance between surface `a` (the reference) and `b`, both ways (algorithms.md §7). Mean, RMS and quantile are those
 /// over area. Samples are one per stratum; strata are smaller where the vertices and samples taken before found the
 /// squared distance to vary (sample_density.h), and each sample weighs as the area it stands for.
-/// The same bits for any number of threads. Throws Error(NoFaces, BadOption).
+/// The same bits for any number of threads. Throws Error(NoFaces, NonFinite, BadOption).
 SurfaceDistance surface_distance(const Mesh& a, const Mesh& b, const DistanceOptions& options, Progress& progress);
 
 /// The same where the trees are at hand, for many comparisons against one reference.

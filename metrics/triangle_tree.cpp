@@ -7,8 +7,8 @@
 
 #include <Eigen/Geometry>
 
-#include "mesh/error.h"
 #include "mesh/parallel.h"
+#include "mesh/topology.h"
 
 /// Compiles a function with all it calls again for AVX2 and AVX-512, chosen when the program starts. The bits are the same:
 /// lanes work alone, in the same order of operations, and contraction is off.
@@ -75,7 +75,7 @@ void split_all(std::vector<Entry>& entries, std::size_t begin, std::size_t end, 
 }  // namespace
 
 TriangleTree::TriangleTree(const Mesh& mesh) {
-  if (mesh.faces.empty()) throw Error(Cause::NoFaces, "a surface without faces has no distance");
+  require_finite_surface(mesh);
   Eigen::AlignedBox3d box;
   for (const Triangle& face : mesh.faces)
     for (int vertex : face) box.extend(mesh.positions[vertex]);

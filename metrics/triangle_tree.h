@@ -17,7 +17,7 @@ inline constexpr int kGroupSize = 8;
 /// About 140 bytes a triangle. O(F log F) to build, on all threads.
 class TriangleTree {
  public:
-  /// Throws Error(NoFaces).
+  /// Throws the errors of `require_finite_surface`.
   explicit TriangleTree(const Mesh& mesh);
 
   /// #F, the faces in the tree's order, which keeps neighbours in space together.

@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <limits>
+
 #include <Eigen/Geometry>
 
 #include "mesh/parallel.h"
@@ -181,6 +183,11 @@ TEST_CASE("refusals have a cause") {
   CHECK(cause([&] { measure(sphere, empty); }) == Cause::NoFaces);
   CHECK(cause([&] { measure(empty, sphere); }) == Cause::NoFaces);
   CHECK(cause([&] { measure(line, sphere); }) == Cause::NoFaces);
+  for (double value : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    Mesh wild = sphere;
+    wild.positions[3].y() = value;
+    CHECK(cause([&] { measure(sphere, wild); }) == Cause::NonFinite);
+  }
   CHECK(cause([&] { measure(sphere, sphere, 0); }) == Cause::BadOption);
   Progress cancelling([](const std::string&, double) { return false; });
   CHECK(cause([&] { surface_distance(sphere, sphere, {1000, 1}, cancelling); }) == Cause::Cancelled);
@@ -217,6 +224,19 @@ TEST_CASE("samples where the distance varies: no bias, and a small part of the e
   }
   CHECK(std::abs(sum - expected) < 5.0 * error / std::sqrt(seeds));
   CHECK(error < 2e-3 * expected);
+}
+
+TEST_CASE("a spike of a few faces is found whatever the seed, and the standard error knows of it") {
+  // One vertex in 10,000, so that an eighth of the samples would miss its faces more often than not.
+  Mesh spiked = shapes::grid(100, 100);
+  spiked.positions[50 * 101 + 50].z() = 1.0;
+  for (int f = 0; f < 100; ++f) spiked.positions[f].z() = 1e-3;
+  const Mesh flat = shapes::grid(100, 100);
+  for (int seed = 1; seed <= 8; ++seed) {
+    const OneWayDistance d = measure(spiked, flat, 21000, seed).forward, precise = measure(spiked, flat, 2000000, 99).forward;
+    CHECK(std::abs(d.rms - precise.rms) < 5.0 * d.rms_standard_error);
+    CHECK(d.rms_standard_error < 5e-3 * precise.rms);
+  }
 }
 
 TEST_CASE("a tolerance is met by adding samples, with the same result as asking for as many") {
