@@ -105,40 +105,35 @@ class BesideCorners {
   }
 
   std::optional<double> across_over_inside() const {
-    double across = 0.0, expected = 0.0;
+    double excess = 0.0, weight = 0.0;
     for (const auto& [number, ring] : rings_) {
-      if (ring.inside.count < kFewest || ring.across.count == 0) continue;
-      across += ring.across.sum;
-      expected += ring.across.weight * ring.inside.sum / ring.inside.weight;
+      if (ring.inside.count < kFewest) continue;
+      const double expected = ring.inside.sum / ring.inside.weight;
+      if (expected <= std::log(2.0 * kRounding)) continue;
+      excess += ring.across.sum - ring.across.weight * expected;
+      weight += ring.across.weight;
     }
-    // Below that a second derivative is rounding.
-    if (!(expected > kRounding * weight_across())) return std::nullopt;
-    return across / expected;
+    if (!(weight > 0.0)) return std::nullopt;
+    return std::exp(excess / weight);
   }
 
  private:
-  static constexpr double kRingsPerOctave = 4.0, kRounding = 1e-7;
-  static constexpr int kFewest = 16;  ///< edges whose mean says something
+  static constexpr double kRingsPerOctave = 4.0;
+  static constexpr double kRounding = 1e-7;  ///< below that a second derivative is none
+  static constexpr int kFewest = 16;         ///< edges whose mean says something
 
-  struct Sum {
+  struct LogSum {
     double sum = 0.0, weight = 0.0;
     int count = 0;
     void add(const Weighted& w) {
-      sum += w.weight * w.value;
+      sum += w.weight * std::log(std::max(w.value, kRounding));
       weight += w.weight;
       ++count;
     }
   };
   struct Ring {
-    Sum inside, across;
+    LogSum inside, across;
   };
-
-  double weight_across() const {
-    double weight = 0.0;
-    for (const auto& [number, ring] : rings_) weight += ring.across.weight;
-    return weight;
-  }
-
   std::map<int, Ring> rings_;
 };
 

@@ -21,11 +21,12 @@ struct Smoothness {
   Statistics at_corner;  ///< edges with a base vertex in one of their two faces
   Statistics all;
   int inside_edges = 0, across_edges = 0, corner_edges = 0;
-  /// Whether patch edges show: the mean over `across` edges of the map's second derivative, over what edges inside patches
-  /// have at the same distance from a corner. 1 where they do not, whatever the triangulation; at a kink it grows as faces
-  /// get smaller. The second derivative is the difference of the first ones over their mean size and over the difference
-  /// that unit second derivatives in random directions give in faces of that shape. Empty where the map is linear inside
-  /// its patches, or where no distance has edges of both kinds.
+  /// Whether patch edges show: the geometric mean over `across` edges of the map's second derivative, over that of edges
+  /// inside patches at the same distance from a corner. 1 where they do not, whatever the triangulation; at a kink it grows
+  /// as faces get smaller. Geometric, since a few squeezed faces would decide on another mean, and a median would not see a
+  /// kink on a third of the patch edges. The second derivative is the difference of the first ones over their mean size and
+  /// over the difference that unit second derivatives in random directions give in faces of that shape. Empty where the map
+  /// is linear inside its patches, or no distance has edges of both kinds.
   std::optional<double> across_over_inside;
   std::vector<double> faces;  ///< #F, mean over a face's edges weighted by their length; 0 where it has none
 };
