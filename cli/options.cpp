@@ -243,6 +243,7 @@ void Command::parameterize_options(ParameterizeOptions& options) {
   axis_number("mu", options.mu, "weight of area dispersion in the cost");
   axis_integer("relaxations", options.relaxations, "corner relaxations between solves at most");
   axis_word("objective", options, "what the map minimises: linear is the paper's global system");
+  axis_word("corners", options, "how corners move between solves: the paper's relaxation, or down the energy's gradient");
   axis_word("weights", options, "of the linear objective and of corner relaxation");
 }
 

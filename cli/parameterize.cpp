@@ -51,6 +51,7 @@ int run_parameterize(ParameterizeArguments& options, Context& context) {
   Json report = {{"method", options.method},
                  {"objective", objective_name(options.parameterize.objective)},
                  {"weights", weights_name(options.parameterize.weights)},
+                 {"corners", corners_name(options.parameterize.corners)},
                  {"base_vertices", result.map.base.vertex_count()},
                  {"base_faces", result.map.base.face_count()},
                  {"relaxation_rounds", result.relaxation_rounds},

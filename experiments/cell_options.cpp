@@ -18,6 +18,7 @@ constexpr const char* kAuto = "auto";
 constexpr Method kMethods[] = {Method::Gsp, Method::Maps, Method::MapsSmoothed, Method::Hybrid};
 constexpr Objective kObjectives[] = {Objective::Distortion, Objective::Linear};
 constexpr Weights kWeights[] = {Weights::MeanValue, Weights::Cotangent, Weights::Uniform};
+constexpr Corners kCorners[] = {Corners::Relax, Corners::Gradient};
 constexpr double kMostWeight = 1e6;
 constexpr int kMostRelaxations = 1000;
 constexpr double kMostInt = std::numeric_limits<int>::max();
@@ -85,6 +86,9 @@ std::vector<Axis> map_axes() {
       {"weights", kStage, Kind::Word, 0, 0, words_of(kWeights, weights_name),
        [](const Options& o) { return Value(weights_name(o.parameterize.weights)); },
        [](Options& o, const Value& v) { o.parameterize.weights = value_of(kWeights, weights_name, v); }},
+      {"corners", kStage, Kind::Word, 0, 0, words_of(kCorners, corners_name),
+       [](const Options& o) { return Value(corners_name(o.parameterize.corners)); },
+       [](Options& o, const Value& v) { o.parameterize.corners = value_of(kCorners, corners_name, v); }},
       {"relaxations",
        kStage,
        Kind::Integer,
@@ -225,7 +229,7 @@ bool Axis::applies_to(const std::string& method) const {
   if (text == "method" || text == "samples" || text == "seed") return true;
   if (is_anchor(method)) return false;
   if (text == "weights" && method == method_name(Method::Hybrid)) return true;
-  return (text != "objective" && text != "weights" && text != "relaxations") || method == method_name(Method::Gsp);
+  return (text != "objective" && text != "weights" && text != "corners" && text != "relaxations") || method == method_name(Method::Gsp);
 }
 
 const std::vector<Axis>& axes() {

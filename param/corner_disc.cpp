@@ -116,13 +116,10 @@ void CornerDisc::straighten_border() {
 }
 
 bool CornerDisc::solve(const LinearWeights& weights) {
-  std::vector<int> row(vertices_.size(), -1), inside;
+  std::vector<int> row(vertices_.size(), -1);
   int unknowns = 0;
-  for (std::size_t i = 0; i < vertices_.size(); ++i) {
-    if (!vertices_[i].inside) continue;
-    row[i] = unknowns++;
-    inside.push_back(vertices_[i].vertex);
-  }
+  for (std::size_t i = 0; i < vertices_.size(); ++i)
+    if (vertices_[i].inside) row[i] = unknowns++;
   if (unknowns == static_cast<int>(vertices_.size())) return false;
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(unknowns, 2);
@@ -136,7 +133,7 @@ bool CornerDisc::solve(const LinearWeights& weights) {
       right(row[i], 1) += weight * vertices_[j].disc.imag();
     }
   };
-  for (const Spring& s : weights.springs(atlas_, faces_around(surface(), inside))) {
+  for (const Spring& s : weights.springs(atlas_, faces())) {
     const int i = index_.at(s.start), j = index_.at(s.end);
     add(i, j, s.at_start);
     add(j, i, s.at_end);
@@ -173,10 +170,15 @@ int CornerDisc::nearest_to_center() const {
   return nearest;
 }
 
-bool CornerDisc::draw_to_center(int index) {
+double CornerDisc::rim() const {
   double rim = 1e300;
   for (const Vertex& v : vertices_)
     if (!v.inside && v.vertex != corner_) rim = std::min(rim, std::abs(v.disc));
+  return rim;
+}
+
+bool CornerDisc::draw_to_center(int index) {
+  const double rim = this->rim();
   const Complex shift = vertices_[index].disc;
   if (std::abs(shift) > 0.4 * rim) return false;
   for (Vertex& v : vertices_) {
@@ -188,27 +190,32 @@ bool CornerDisc::draw_to_center(int index) {
   return true;
 }
 
-bool CornerDisc::upright_in_plane(int center) const {
-  const double power = 1.0 / power_;
-  for (const Vertex& v : vertices_) {
-    if (!v.inside) continue;
-    const int start = surface().halfedges.outgoing[v.vertex];
-    int h = start;
-    do {
-      const int corners[3] = {index_.at(v.vertex), index_.at(surface().halfedges.to(h)),
-                              index_.at(surface().halfedges.to(Halfedges::next(h)))};
-      const int first = corners[0] == center ? 1 : 0;
-      Complex plane[3];
-      for (int k = 0; k < 3; ++k) {
-        if (corners[k] == center) continue;
-        const Complex z = vertices_[corners[k]].disc;
-        plane[k] = std::polar(std::pow(std::abs(z), power), std::arg(z / vertices_[corners[first]].disc) * power);
-      }
-      if (!upright(plane[0], plane[1], plane[2])) return false;
-      h = surface().halfedges.rotate_ccw(h);
-    } while (h != start);
+std::vector<int> CornerDisc::faces() const {
+  std::vector<int> inside;
+  for (const Vertex& v : vertices_)
+    if (v.inside) inside.push_back(v.vertex);
+  return faces_around(surface(), inside);
+}
+
+std::array<Complex, 3> CornerDisc::in_plane(int face, int center) const {
+  const Triangle& t = surface().mesh.faces[face];
+  const int corners[3] = {index_.at(t[0]), index_.at(t[1]), index_.at(t[2])};
+  const int first = corners[0] == center ? 1 : 0;
+  std::array<Complex, 3> plane;
+  for (int k = 0; k < 3; ++k) {
+    if (corners[k] == center) continue;
+    const Complex z = vertices_[corners[k]].disc;
+    plane[k] = std::polar(std::pow(std::abs(z), 1.0 / power_), std::arg(z / vertices_[corners[first]].disc) / power_);
   }
-  return true;
+  return plane;
+}
+
+bool CornerDisc::upright_in_plane(int center) const {
+  const std::vector<int> all = faces();
+  return std::all_of(all.begin(), all.end(), [&](int face) {
+    const auto [a, b, c] = in_plane(face, center);
+    return upright(a, b, c);
+  });
 }
 
 }  // namespace gsp

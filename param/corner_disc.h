@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <unordered_map>
@@ -38,6 +39,13 @@ class CornerDisc {
   /// Moves the disc's middle so that a vertex lies at 0: a shift that fades out smoothly toward the rim. False, and nothing
   /// is changed, where the vertex is too near the rim.
   bool draw_to_center(int index);
+  /// Distance of the rim from 0.
+  double rim() const;
+  /// The three corners of a face that touches the inside in the plane developed about the corner, turned so that the first
+  /// one that is not `center` lies on the real axis; `center` lies at 0.
+  std::array<Complex, 3> in_plane(int face, int center) const;
+  /// The faces that touch the inside, ascending.
+  std::vector<int> faces() const;
   /// Whether every face that touches the inside has positive area once the disc is taken back to the charts by z^(k/6),
   /// the vertex `center` being the corner.
   bool upright_in_plane(int center) const;

@@ -1,6 +1,7 @@
 #include "param/linear_map.h"
 
 #include "param/best_map.h"
+#include "param/descend_corners.h"
 #include "param/folds.h"
 #include "param/global_system.h"
 #include "param/relax_corners.h"
@@ -16,6 +17,12 @@ constexpr int kPatience = 2;        // rounds before the paper's iteration can b
 constexpr double kHopeless = 2e-4;  // where a larger share of faces is folded
 constexpr int kRings = 16;          // of the discs that are untangled in the end
 
+int move_corners(Atlas& atlas, const LinearWeights& weights, const ParameterizeOptions& options, Folding folding) {
+  if (options.relaxations == 0) return 0;
+  return options.corners == Corners::Gradient ? descend_corners(atlas, options.objective, kRelaxationRadius, folding)
+                                              : relax_corners(atlas, weights, kRelaxationRadius, folding);
+}
+
 /// The paper's iteration (§3.3, steps 2 to 4), folds and all, as long as few faces fold. It drives corners toward a
 /// conformal map, which starves long limbs until they fold.
 Atlas solve_and_relax(Atlas atlas, const ParameterizeOptions& options, ParameterizeResult& result, Progress& progress) {
@@ -24,7 +31,7 @@ Atlas solve_and_relax(Atlas atlas, const ParameterizeOptions& options, Parameter
   BestMap best;
   for (int round = 0;; ++round) {
     progress.report("solve and relax", double(round) / (options.relaxations + 1));
-    const int moved = options.relaxations == 0 ? 0 : relax_corners(atlas, weights, kRelaxationRadius, Folding::Allowed);
+    const int moved = move_corners(atlas, weights, options, Folding::Allowed);
     atlas.position = solve_global(atlas, weights, interior_vertices(atlas));
     atlas.reassign_all();
     best.offer(atlas, round);
@@ -51,7 +58,7 @@ Atlas linear_map(const Atlas& injective, const ParameterizeOptions& options, Par
   BestMap best;
   for (int round = 0; round < kGuardedRounds; ++round) {
     progress.report("solve and relax without folds", double(round) / kGuardedRounds);
-    if (options.relaxations > 0) relax_corners(atlas, weights, kRelaxationRadius, Folding::Refused);
+    move_corners(atlas, weights, options, Folding::Refused);
     result.held_vertices = solve_without_folds(atlas, weights, progress);
     best.offer(atlas, round);
   }

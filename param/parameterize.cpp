@@ -11,6 +11,7 @@
 #include "mesh/atomic_file.h"
 #include "mesh/topology.h"
 #include "param/best_map.h"
+#include "param/descend_corners.h"
 #include "param/folds.h"
 #include "param/linear_map.h"
 #include "param/lower_distortion.h"
@@ -50,7 +51,7 @@ std::vector<std::string> provenance(const Mesh& input, const ParameterizeOptions
           line("base_vertices_asked", options.base_vertices), line("gamma", options.gamma),
           line("mu", options.mu),                      line("relaxations", options.relaxations),
           line("objective", objective_name(options.objective)),
-          line("weights", weights_name(options.weights)),
+          line("weights", weights_name(options.weights)), line("corners", corners_name(options.corners)),
           line("input_vertices", input.vertex_count()), line("input_faces", input.face_count())};
 }
 
@@ -80,7 +81,10 @@ Atlas low_distortion_map(const Start& start, const ParameterizeOptions& options,
   BestMap best;
   best.offer(atlas, 0);
   for (int round = 1; round <= options.relaxations; ++round) {
-    if (relax_corners(atlas, weights, kRelaxationRadius, Folding::Refused) == 0) break;
+    const int moved = options.corners == Corners::Gradient
+                          ? descend_corners(atlas, options.objective, kRelaxationRadius, Folding::Refused)
+                          : relax_corners(atlas, weights, kRelaxationRadius, Folding::Refused);
+    if (moved == 0) break;
     lower_distortion(atlas, kRoughly, progress);
     best.offer(atlas, round);
   }
@@ -179,6 +183,8 @@ const char* weights_name(Weights weights) {
   }
   return "unknown";
 }
+
+const char* corners_name(Corners corners) { return corners == Corners::Gradient ? "gradient" : "relax"; }
 
 const char* method_name(Method method) {
   switch (method) {

@@ -39,10 +39,20 @@ enum class Weights {
 /// "mean-value", "cotangent", "uniform".
 const char* weights_name(Weights weights);
 
+/// How the patch corners find their places.
+enum class Corners {
+  Relax,    ///< the paper's relaxation on discs (§3.2.2)
+  Gradient  ///< down the gradient of what the map minimises, from vertex to vertex
+};
+
+/// "relax", "gradient".
+const char* corners_name(Corners corners);
+
 struct ParameterizeOptions {
   Method method = Method::Gsp;
   Objective objective = Objective::Distortion;
   Weights weights = Weights::MeanValue;
+  Corners corners = Corners::Relax;
   /// Base vertices to stop at, at least 4. 0: automatic, before metric distortion dominates Ω (§3.1.1, figure 5d).
   /// The simplification stops earlier, with a note, where no vertex can be removed any more.
   int base_vertices = 0;

@@ -24,7 +24,7 @@ bool relax(CornerDisc disc, const LinearWeights& weights, CornerMove& move) {
 
 }  // namespace
 
-int relax_corners(Atlas& atlas, const LinearWeights& weights, double radius, Folding folding) {
+int move_corners(Atlas& atlas, double radius, Folding folding, const MakeCornerMove& make) {
   int moved = 0;
   std::vector<char> done(atlas.fans.size(), 0);
   std::vector<char> inside(atlas.surface->mesh.positions.size(), 0), rim(inside);
@@ -32,7 +32,7 @@ int relax_corners(Atlas& atlas, const LinearWeights& weights, double radius, Fol
     std::vector<CornerMove> moves(atlas.fans.size());
     parallel_for(moves.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b)
-        if (!done[b] && relax(CornerDisc(atlas, shrink * radius, static_cast<int>(b)), weights, moves[b]))
+        if (!done[b] && make(CornerDisc(atlas, shrink * radius, static_cast<int>(b)), moves[b]))
           moves[b].base_vertex = static_cast<int>(b);
     });
     for (CornerMove& move : moves) {
@@ -55,6 +55,12 @@ int relax_corners(Atlas& atlas, const LinearWeights& weights, double radius, Fol
     }
   }
   return moved;
+}
+
+int relax_corners(Atlas& atlas, const LinearWeights& weights, double radius, Folding folding) {
+  return move_corners(atlas, radius, folding, [&](CornerDisc disc, CornerMove& move) {
+    return relax(std::move(disc), weights, move);
+  });
 }
 
 }  // namespace gsp

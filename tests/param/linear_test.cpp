@@ -7,6 +7,7 @@
 
 #include "mesh/random.h"
 #include "mesh/shapes.h"
+#include "param/descend_corners.h"
 #include "param/folds.h"
 #include "param/global_system.h"
 #include "param/intrinsic_triangulation.h"
@@ -196,5 +197,51 @@ TEST_CASE("cotangent weights give the map of least Dirichlet energy") {
     atlas.position[v] += std::polar(1e-3, 6.28 * random.uniform());
     CHECK(energy() > least);
     atlas.position[v] = before;
+  }
+}
+
+TEST_CASE("corners stay where symmetry wants them, and go back down the energy's gradient when they are pushed off") {
+  constexpr int kLevel = 4;
+  Parameterization exact = exact_maps::quadrisected(shapes::icosahedron(), kLevel);
+  for (Vec3& p : exact.surface.positions) p.normalize();
+  Progress progress;
+  for (Objective objective : {Objective::Linear, Objective::Distortion}) {
+    Atlas atlas = atlas_of(exact);
+    const LinearWeights weights(*atlas.surface, Weights::Cotangent);
+    const auto settle = [&] {
+      if (objective == Objective::Distortion) {
+        lower_distortion(atlas, 1e-9, progress);
+        return;
+      }
+      atlas.position = solve_global(atlas, weights, interior_vertices(atlas));
+      atlas.reassign_all();
+    };
+    settle();
+    CHECK(descend_corners(atlas, objective, kRelaxationRadius, Folding::Refused) == 0);
+
+    const int first = atlas.base.vertices[0];
+    const int pushed = move_corners(atlas, kRelaxationRadius, Folding::Refused, [&](CornerDisc disc, CornerMove& move) {
+      if (disc.corner() != first || !disc.collect()) return false;
+      int aside = 1;
+      for (int i = 2; i < static_cast<int>(disc.vertices().size()); ++i)
+        if (std::abs(disc.vertices()[i].disc - 0.12) < std::abs(disc.vertices()[aside].disc - 0.12)) aside = i;
+      return disc.draw_to_center(aside) && make_move(disc, aside, move);
+    });
+    REQUIRE(pushed == 1);
+    REQUIRE(atlas.base.vertices[0] != first);
+    const auto distance = [&] {
+      const auto& p = atlas.surface->mesh.positions;
+      return (p[atlas.base.vertices[0]] - p[first]).norm();
+    };
+    const double before = distance();
+    for (int round = 0; round < 8; ++round) {
+      settle();
+      if (descend_corners(atlas, objective, kRelaxationRadius, Folding::Refused) == 0) break;
+    }
+    CHECK(atlas.broken_faces() == 0);
+    CHECK(find_folds(atlas).none());
+    // Edges of the sphere are about 0.07 long.
+    CHECK(before > 0.1);
+    CHECK(distance() < 0.08);
   }
 }
