@@ -12,6 +12,7 @@ class Coarsener {
       : map_(std::move(map)),
         refined_(map_.refined),
         patch_(refined_.vertex_count(), -1),
+        corner_(refined_.vertex_count(), -1),
         position_(refined_.vertex_count()),
         transition_(3 * static_cast<std::size_t>(refined_.face_slots())) {
     const Atlas& atlas = map_.atlas;
@@ -19,6 +20,7 @@ class Coarsener {
       if (map_.vertex[v] < 0) continue;
       patch_[v] = atlas.patch[map_.vertex[v]];
       position_[v] = atlas.position[map_.vertex[v]];
+      corner_[v] = atlas.corner[map_.vertex[v]];
     }
     const Surface& surface = *atlas.surface;
     for (std::size_t h = 0; h < map_.halfedge.size(); ++h)
@@ -50,7 +52,7 @@ class Coarsener {
     for (int pass = 0; pass < kPasses; ++pass) {
       bool any = false;
       for (int v = first; v < refined_.vertex_count(); ++v)
-        if (patch_[v] >= 0) any |= take_out(v);
+        if (patch_[v] >= 0 && corner_[v] < 0) any |= take_out(v);
       if (!any) return;
     }
   }
@@ -67,8 +69,10 @@ class Coarsener {
       if (compact.vertex[v] < 0) continue;
       atlas.patch[compact.vertex[v]] = patch_[v];
       atlas.position[compact.vertex[v]] = position_[v];
+      if (corner_[v] < 0) continue;
+      atlas.corner[compact.vertex[v]] = corner_[v];
+      atlas.base.vertices[corner_[v]] = compact.vertex[v];
     }
-    for (int b = 0; b < atlas.base.vertex_count(); ++b) atlas.corner[atlas.base.vertices[b]] = b;
     atlas.transition.clear();
     for (int h : atlas.surface->edge_halfedge) atlas.transition.push_back(transition_[compact.halfedge[h]]);
     map_.vertex = std::move(compact.vertex);
@@ -80,6 +84,7 @@ class Coarsener {
   RefinedMap map_;
   RefinedSurface& refined_;
   std::vector<int> patch_;              ///< per vertex, -1 for those that are out
+  std::vector<int> corner_;             ///< per vertex, its base vertex or -1
   std::vector<Complex> position_;       ///< per vertex
   std::vector<Transition> transition_;  ///< per half-edge, from the chart of its head to that of its tail
 };

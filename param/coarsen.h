@@ -14,7 +14,7 @@ struct RefinedMap {
 };
 
 /// Takes added vertices out of a map again where it stays upright, and its pieces thick enough, without them, also on edges of
-/// the base. The patch corners must be vertices of the original surface. O(V).
+/// the base. Patch corners stay. O(V).
 RefinedMap coarsen(RefinedMap map);
 
 }  // namespace gsp

@@ -13,10 +13,11 @@ namespace gsp {
 namespace {
 
 constexpr double kLeastCurvature = 1e-4;     // of the largest, so that no direction is free
+constexpr double kLargestShare = 4.0;        // of the area that a face stands for over its own
 constexpr double kFlattestReference = 0.05;  // height over longest side of a reference triangle
 
-/// The triangle laid into the plane, kept away from degenerate shapes.
-Eigen::Matrix2d reference_shape(const Mesh& mesh, const Triangle& t, double mean_length) {
+/// The triangle laid into the plane, kept away from degenerate shapes, as large as what it stands for.
+Eigen::Matrix2d reference_shape(const Mesh& mesh, const Triangle& t, double area, double mean_length) {
   const Vec3 a = mesh.positions[t[1]] - mesh.positions[t[0]], b = mesh.positions[t[2]] - mesh.positions[t[0]];
   const double longest = std::max({a.norm(), b.norm(), (b - a).norm(), 1e-3 * mean_length, 1e-300});
   const double floor = kFlattestReference * longest;
@@ -25,7 +26,8 @@ Eigen::Matrix2d reference_shape(const Mesh& mesh, const Triangle& t, double mean
   const double along = a.norm() > 0.0 ? a.dot(b) / a.norm() : 0.0;
   const double height = a.norm() > 0.0 ? a.cross(b).norm() / a.norm() : b.norm();
   shape << base, along, 0.0, std::max(height, floor);
-  return shape;
+  const double larger = std::clamp(2.0 * area / shape.determinant(), 1.0, kLargestShare);
+  return std::sqrt(larger) * shape;
 }
 
 /// With singular values s1, s2 and d = s1 s2, the energy of a face is f = (s1/s2 + s2/s1)/2 + λ (d + 1/d)/2. Its Hessian by
@@ -67,8 +69,32 @@ Eigen::Matrix4d convex_hessian_by_jacobian(Complex j1, Complex j2, double area_w
 
 }  // namespace
 
+std::vector<ReferenceShape> reference_shapes(const Atlas& atlas, const std::vector<int>& faces) {
+  const Surface& surface = *atlas.surface;
+  const Mesh& mesh = surface.mesh;
+  double length = 0.0, chart = 0.0, area = 0.0;
+  for (int f : faces)
+    length += (mesh.positions[mesh.faces[f][1]] - mesh.positions[mesh.faces[f][0]]).norm() / faces.size();
+  std::vector<ReferenceShape> shapes;
+  shapes.reserve(faces.size());
+  for (int f : faces) {
+    const Eigen::Matrix2d shape = reference_shape(mesh, mesh.faces[f], surface.face_area[f], length);
+    const Eigen::Matrix2d inverse = shape.inverse();
+    shapes.push_back({{inverse(0, 0), inverse(0, 1), inverse(1, 1)}, 0.5 * shape.determinant()});
+    area += shapes.back().weight;
+    const auto z = atlas.face_corners(f, atlas.face_frame(f));
+    chart += chart_area(z[0], z[1], z[2]);
+  }
+  const double scale = std::sqrt(std::max(chart, 1e-12) / area);
+  for (ReferenceShape& shape : shapes) {
+    for (double& entry : shape.inverse) entry /= scale;
+    shape.weight /= area;
+  }
+  return shapes;
+}
+
 DistortionEnergy::DistortionEnergy(const Atlas& atlas, const std::vector<int>& vertices, const std::vector<int>& faces,
-                                   double area_weight)
+                                   const std::vector<ReferenceShape>& shapes, double area_weight)
     : vertices_(vertices), area_weight_(area_weight) {
   std::vector<std::pair<int, int>> sorted;
   for (std::size_t i = 0; i < vertices_.size(); ++i) sorted.emplace_back(vertices_[i], static_cast<int>(i));
@@ -78,32 +104,19 @@ DistortionEnergy::DistortionEnergy(const Atlas& atlas, const std::vector<int>& v
     return at != sorted.end() && at->first == v ? at->second : -1;
   };
   const Mesh& mesh = atlas.surface->mesh;
-  double length = 0.0, chart = 0.0, area = 0.0;
-  for (int f : faces)
-    length += (mesh.positions[mesh.faces[f][1]] - mesh.positions[mesh.faces[f][0]]).norm() / faces.size();
-  for (int f : faces) {
+  faces_.reserve(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) {
     Face face;
-    const Atlas::FaceFrame frame = atlas.face_frame(f);
+    face.shape = shapes[i];
+    const Atlas::FaceFrame frame = atlas.face_frame(faces[i]);
     for (int k = 0; k < 3; ++k) {
-      face.variable[k] = variable(mesh.faces[f][k]);
+      const int v = mesh.faces[faces[i]][k];
+      face.variable[k] = variable(v);
       face.turn[k] = omega_power(frame.to_chart[k].rotation);
       face.shift[k] = frame.to_chart[k].translation.value();
-      face.held[k] = frame.to_chart[k].apply(atlas.position[mesh.faces[f][k]]);
+      face.held[k] = frame.to_chart[k].apply(atlas.position[v]);
     }
-    const Eigen::Matrix2d shape = reference_shape(mesh, mesh.faces[f], length);
-    const Eigen::Matrix2d inverse = shape.inverse();
-    face.inverse[0] = inverse(0, 0);
-    face.inverse[1] = inverse(0, 1);
-    face.inverse[2] = inverse(1, 1);
-    face.weight = 0.5 * shape.determinant();
-    area += face.weight;
-    chart += chart_area(face.held[0], face.held[1], face.held[2]);
     faces_.push_back(face);
-  }
-  const double scale = std::sqrt(std::max(chart, 1e-12) / area);  // the reference as large as the image
-  for (Face& face : faces_) {
-    for (double& entry : face.inverse) entry /= scale;
-    face.weight /= area;
   }
 }
 
@@ -133,7 +146,7 @@ double DistortionEnergy::least_determinant(const std::vector<double>& x) const {
   double least = 1e300;
   for (const Face& face : faces_) {
     const auto z = corners(face, x.data());
-    least = std::min(least, 2.0 * chart_area(z[0], z[1], z[2]) * face.inverse[0] * face.inverse[2]);
+    least = std::min(least, 2.0 * chart_area(z[0], z[1], z[2]) * face.shape.inverse[0] * face.shape.inverse[2]);
   }
   return least;
 }
@@ -146,7 +159,7 @@ bool DistortionEnergy::upright(const std::vector<double>& x) const {
 }
 
 DistortionEnergy::Columns DistortionEnergy::columns(const Face& face) {
-  const double i00 = face.inverse[0], i01 = face.inverse[1], i11 = face.inverse[2];
+  const double i00 = face.shape.inverse[0], i01 = face.shape.inverse[1], i11 = face.shape.inverse[2];
   return {{-i00, i00, 0.0}, {-i01 - i11, i01, i11}};
 }
 
@@ -172,10 +185,10 @@ double DistortionEnergy::evaluate(const double* x, double* gradient, double epsi
   for (const Face& face : faces_) {
     const Columns by = columns(face);
     const Slope at = slope(jacobian(by, corners(face, x)), epsilon);
-    energy += face.weight * at.density;
+    energy += face.shape.weight * at.density;
     for (int k = 0; k < 3; ++k) {
       if (face.variable[k] < 0) continue;
-      const Complex g = face.weight * std::conj(face.turn[k]) * (by.first[k] * at.by_j1 + by.second[k] * at.by_j2);
+      const Complex g = face.shape.weight * std::conj(face.turn[k]) * (by.first[k] * at.by_j1 + by.second[k] * at.by_j2);
       gradient[2 * face.variable[k]] += g.real();
       gradient[2 * face.variable[k] + 1] += g.imag();
     }
@@ -196,11 +209,11 @@ DistortionEnergy::ByCorner DistortionEnergy::by_corner(int face_index, int corne
   const Jacobian at = jacobian(by, corners(face, x));
   const Slope s = slope(at, 0.0);
   const double first = by.first[corner], second = by.second[corner];
-  const Complex g = face.weight * std::conj(face.turn[corner]) * (first * s.by_j1 + second * s.by_j2);
+  const Complex g = face.shape.weight * std::conj(face.turn[corner]) * (first * s.by_j1 + second * s.by_j2);
   const Eigen::Matrix<double, 4, 2> chain = by_position(face, corner, by);
-  return {face.weight * s.density,
+  return {face.shape.weight * s.density,
           {g.real(), g.imag()},
-          face.weight * chain.transpose() * convex_hessian_by_jacobian(at.j1, at.j2, area_weight_) * chain};
+          face.shape.weight * chain.transpose() * convex_hessian_by_jacobian(at.j1, at.j2, area_weight_) * chain};
 }
 
 std::array<int, 3> DistortionEnergy::variables(int face) const {
@@ -222,7 +235,7 @@ Eigen::Matrix<double, 6, 6> DistortionEnergy::convex_hessian(int face_index, con
   const Jacobian at = jacobian(by, corners(face, x));
   Eigen::Matrix<double, 4, 6> chain;
   for (int k = 0; k < 3; ++k) chain.middleCols<2>(2 * k) = by_position(face, k, by);
-  return face.weight * chain.transpose() * convex_hessian_by_jacobian(at.j1, at.j2, area_weight_) * chain;
+  return face.shape.weight * chain.transpose() * convex_hessian_by_jacobian(at.j1, at.j2, area_weight_) * chain;
 }
 
 double DistortionEnergy::longest_step(const double* x, const double* direction) const {

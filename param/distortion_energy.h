@@ -9,16 +9,25 @@
 
 namespace gsp {
 
+/// A face's shape on the surface, of which its image should be a copy.
+struct ReferenceShape {
+  double inverse[3];  ///< of the upper triangular matrix of its edges in the plane: (0,0), (0,1), (1,1)
+  double weight;      ///< share of the area
+};
+
+/// The shapes of some faces, kept away from degenerate ones, together as large as their images in the map. #faces. O(faces).
+std::vector<ReferenceShape> reference_shapes(const Atlas& atlas, const std::vector<int>& faces);
+
 /// The energy of Garanzha et al. 2021 over some faces of a map: Σ A (|J|²/(2χ) + λ (det² + 1)/(2χ)), J the affine map from
-/// the surface's triangle (its shape kept away from degenerate ones, its size as in the whole set of faces) to its image, A
-/// its share of the area, χ(ε) = (det + √(ε² + det²))/2. The first term is least for similarities, the second for equal
+/// the surface's triangle (its `ReferenceShape`) to its image, A its share of the area, χ(ε) = (det + √(ε² + det²))/2. The first term is least for similarities, the second for equal
 /// areas. With ε = 0 it is finite for upright faces only; with larger ε it is finite for all and drives folds apart.
 /// Variables are the positions of some vertices in their charts, two doubles each; all other vertices are held.
 class DistortionEnergy {
  public:
   /// `vertices`: distinct, not patch corners. `faces` should be all that touch them. `area_weight`: λ > 0.
+  /// `shapes`: per face of `faces`.
   DistortionEnergy(const Atlas& atlas, const std::vector<int>& vertices, const std::vector<int>& faces,
-                   double area_weight);
+                   const std::vector<ReferenceShape>& shapes, double area_weight);
 
   /// The vertices' present positions.
   std::vector<double> positions(const Atlas& atlas) const;
@@ -28,7 +37,7 @@ class DistortionEnergy {
   double evaluate(const double* x, double* gradient, double epsilon) const;
   /// Energy of one face by area, with ε = 0: 1 + λ for an isometry, infinite where the face is not upright.
   double density(int face, const double* x) const;
-  double weight(int face) const { return faces_[face].weight; }
+  double weight(int face) const { return faces_[face].shape.weight; }
   double least_determinant(const std::vector<double>& x) const;
   bool upright(const std::vector<double>& x) const;
 
@@ -56,8 +65,7 @@ class DistortionEnergy {
     int variable[3];          ///< -1 where held
     Complex turn[3], shift[3];  ///< from the vertex's chart to the face's
     Complex held[3];
-    double inverse[3];        ///< of the reference's upper triangular edge matrix: (0,0), (0,1), (1,1)
-    double weight;
+    ReferenceShape shape;
   };
 
   /// Columns of J by corner: j1 = Σ first[k] z_k, j2 = Σ second[k] z_k.

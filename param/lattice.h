@@ -66,6 +66,11 @@ struct Transition {
   }
 };
 
+inline Eisenstein nearest_lattice_point(Complex z) {
+  const double b = z.imag() / kOmegaIm;
+  return {static_cast<std::int32_t>(std::lround(z.real() - kOmegaRe * b)), static_cast<std::int32_t>(std::lround(b))};
+}
+
 /// The corners of a chart: 0, 1 and ω.
 inline constexpr std::array<Eisenstein, 3> kChartCorners = {Eisenstein{0, 0}, Eisenstein{1, 0}, Eisenstein{0, 1}};
 

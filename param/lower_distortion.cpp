@@ -1,14 +1,13 @@
 #include "param/lower_distortion.h"
 
-#include <cmath>
+#include <algorithm>
 #include <numeric>
 
 #include "mesh/parallel.h"
-#include "param/distortion_energy.h"
 #include "param/folds.h"
 #include "param/global_system.h"
 #include "param/lower_peaks.h"
-#include "param/sparse_solver.h"
+#include "param/newton_descent.h"
 
 namespace gsp {
 
@@ -16,113 +15,6 @@ namespace {
 
 constexpr double kAreaWeight = 1.0;
 constexpr int kMostSteps = 100;
-constexpr double kShare = 0.9;          // of the way to the first fold
-constexpr double kShortStep = 0.5;      // that a fold has held up
-constexpr double kArmijo = 1e-4;
-constexpr double kShortestStep = 1e-6;
-constexpr double kSmallestShift = 1e-12, kLargestShift = 0.1;  // of the Hessian's diagonal
-
-/// The convex Hessian of a whole energy: the pattern is found once, the values are filled in for each x.
-class Hessian {
- public:
-  explicit Hessian(const DistortionEnergy& energy) : energy_(energy) {
-    std::vector<Eigen::Triplet<double>> entries;
-    for_each_entry([&](int, int, int, int row, int column) { entries.emplace_back(row, column, 0.0); });
-    const int n = 2 * energy.variable_count();
-    matrix_.resize(n, n);
-    matrix_.setFromTriplets(entries.begin(), entries.end());
-    place_.reserve(entries.size());
-    for_each_entry([&](int, int, int, int row, int column) {
-      const int* first = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column];
-      const int* last = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column + 1];
-      place_.push_back(static_cast<int>(std::lower_bound(first, last, row) - matrix_.innerIndexPtr()));
-    });
-    faces_.resize(energy.face_count());
-  }
-
-  /// The lower triangle at x.
-  Eigen::SparseMatrix<double>& at(const double* x) {
-    parallel_for(faces_.size(), 1024, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t f = begin; f < end; ++f) faces_[f] = energy_.convex_hessian(static_cast<int>(f), x);
-    });
-    double* values = matrix_.valuePtr();
-    std::fill(values, values + matrix_.nonZeros(), 0.0);
-    std::size_t entry = 0;
-    for_each_entry([&](int f, int i, int j, int, int) { values[place_[entry++]] += faces_[f](i, j); });
-    return matrix_;
-  }
-
- private:
-  /// visit(face, row in the face, column in the face, row, column) for the entries of the lower triangle.
-  template <class Visit>
-  void for_each_entry(Visit&& visit) const {
-    for (int f = 0; f < energy_.face_count(); ++f) {
-      const auto variables = energy_.variables(f);
-      for (int i = 0; i < 6; ++i)
-        for (int j = 0; j < 6; ++j) {
-          if (variables[i / 2] < 0 || variables[j / 2] < 0) continue;
-          const int row = 2 * variables[i / 2] + i % 2, column = 2 * variables[j / 2] + j % 2;
-          if (row >= column) visit(f, i, j, row, column);
-        }
-    }
-  }
-
-  const DistortionEnergy& energy_;
-  Eigen::SparseMatrix<double> matrix_;
-  std::vector<int> place_;  ///< per entry, where its value is
-  std::vector<Eigen::Matrix<double, 6, 6>> faces_;
-};
-
-class Descent {
- public:
-  Descent(const DistortionEnergy& energy, std::vector<double>& x) : energy_(energy), x_(x), hessian_(energy), gradient_(x.size()) {
-    value_ = energy_.evaluate(x_.data(), gradient_.data(), 0.0);
-  }
-
-  /// One Newton step. Returns the share of the energy it gained, 0 where it found nothing.
-  double step() {
-    if (!factorize()) return 0.0;
-    const Eigen::Map<Eigen::VectorXd> gradient(gradient_.data(), gradient_.size());
-    const Eigen::VectorXd direction = solver_.solve(-gradient);
-    const double slope = gradient.dot(direction);
-    if (!(slope < 0.0)) return 0.0;
-    const double longest = energy_.longest_step(x_.data(), direction.data());
-    std::vector<double> trial(x_.size()), trial_gradient(x_.size());
-    for (double t = longest < 1.0 ? kShare * longest : 1.0; t > kShortestStep; t *= 0.5) {
-      for (std::size_t i = 0; i < x_.size(); ++i) trial[i] = x_[i] + t * direction[i];
-      const double value = energy_.evaluate(trial.data(), trial_gradient.data(), 0.0);
-      if (!(value <= value_ + kArmijo * t * slope) || !energy_.upright(trial)) continue;
-      const double before = value_;
-      value_ = value;
-      x_.swap(trial);
-      gradient_.swap(trial_gradient);
-      if (t < kShortStep) {
-        lower_peaks(energy_, x_);
-        value_ = energy_.evaluate(x_.data(), gradient_.data(), 0.0);
-      }
-      return (before - value_) / before;
-    }
-    return 0.0;
-  }
-
- private:
-  /// Where rounding has lost that the Hessian is definite, a small share is added to its diagonal.
-  bool factorize() {
-    Eigen::SparseMatrix<double>& matrix = hessian_.at(x_.data());
-    for (double more = 0.0; more < kLargestShift; more = std::max(kSmallestShift, 100.0 * more)) {
-      if (more > 0.0) matrix.diagonal() *= 1.0 + more;
-      if (solver_.factorize(matrix)) return true;
-    }
-    return false;
-  }
-
-  const DistortionEnergy& energy_;
-  std::vector<double>& x_;
-  Hessian hessian_;
-  CholeskySolver solver_;
-  std::vector<double> gradient_;
-  double value_;
-};
 
 }  // namespace
 
@@ -133,11 +25,11 @@ bool lower_distortion(Atlas& atlas, double least_gain, Progress& progress) {
     if (atlas.is_free(v)) vertices.push_back(v);
   if (vertices.empty()) return false;
   std::iota(faces.begin(), faces.end(), 0);
-  const DistortionEnergy energy(atlas, vertices, faces, kAreaWeight);
+  const DistortionEnergy energy(atlas, vertices, faces, reference_shapes(atlas, faces), kAreaWeight);
   std::vector<double> x = energy.positions(atlas);
   const std::vector<Complex> before = atlas.position;
   lower_peaks(energy, x);
-  Descent descent(energy, x);
+  NewtonDescent descent(energy, x);
   for (int i = 0; i < kMostSteps; ++i) {
     progress.report("lower distortion", double(i) / kMostSteps);
     if (descent.step() < least_gain) break;
@@ -149,6 +41,127 @@ bool lower_distortion(Atlas& atlas, double least_gain, Progress& progress) {
   }
   atlas.reassign_all();
   return true;
+}
+
+namespace {
+
+constexpr int kBlock = 2000;     // vertices
+constexpr int kOverlap = 3;      // rings around a block that are solved with it
+constexpr int kBlockSteps = 4;
+constexpr double kBlockGain = 1e-3;  // share of a block's energy
+
+/// The free vertices in connected blocks, each in the order in which it grew.
+std::vector<std::vector<int>> blocks_of(const Atlas& atlas) {
+  std::vector<std::vector<int>> blocks;
+  std::vector<char> taken(atlas.patch.size(), 0);
+  std::vector<int> seeds;  // met while others grew, so that blocks lie beside each other
+  std::size_t next_seed = 0;
+  const auto grow = [&](int seed) {
+    std::vector<int> block{seed};
+    taken[seed] = 1;
+    for (std::size_t i = 0; i < block.size(); ++i)
+      atlas.surface->for_each_neighbour(block[i], [&](int w, int, bool) {
+        if (taken[w] || !atlas.is_free(w)) return;
+        if (block.size() >= kBlock) {
+          seeds.push_back(w);
+          return;
+        }
+        taken[w] = 1;
+        block.push_back(w);
+      });
+    blocks.push_back(std::move(block));
+  };
+  for (int v = 0; v < static_cast<int>(taken.size()); ++v) {
+    if (!taken[v] && atlas.is_free(v)) grow(v);
+    for (; next_seed < seeds.size(); ++next_seed)
+      if (!taken[seeds[next_seed]]) grow(seeds[next_seed]);
+  }
+  return blocks;
+}
+
+/// One block with the rings around it, whose energy is lowered with everything else held.
+struct Block {
+  std::vector<int> vertices, faces;
+};
+
+std::vector<Block> overlapping_blocks(const Atlas& atlas) {
+  const Surface& surface = *atlas.surface;
+  std::vector<Block> blocks;
+  std::vector<int> reached(atlas.patch.size(), -1), face_reached(surface.mesh.faces.size(), -1);
+  for (std::vector<int>& grown : blocks_of(atlas)) {
+    const int number = static_cast<int>(blocks.size());
+    Block block{std::move(grown), {}};
+    for (int v : block.vertices) reached[v] = number;
+    std::size_t ring = 0;
+    for (int i = 0; i < kOverlap; ++i)
+      for (const std::size_t end = block.vertices.size(); ring < end; ++ring)
+        surface.for_each_neighbour(block.vertices[ring], [&](int w, int, bool) {
+          if (reached[w] == number || !atlas.is_free(w)) return;
+          reached[w] = number;
+          block.vertices.push_back(w);
+        });
+    std::sort(block.vertices.begin(), block.vertices.end());
+    for (int v : block.vertices) {
+      const int start = surface.halfedges.outgoing[v];
+      int h = start;
+      do {
+        if (face_reached[h / 3] != number) block.faces.push_back(h / 3);
+        face_reached[h / 3] = number;
+        h = surface.halfedges.rotate_ccw(h);
+      } while (h != start);
+    }
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
+}
+
+/// Blocks in groups, within which no two share a face, so that they can be solved side by side.
+std::vector<std::vector<int>> independent_groups(const std::vector<Block>& blocks, std::size_t faces) {
+  std::vector<std::vector<int>> at_face(faces);
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (int f : blocks[b].faces) at_face[f].push_back(static_cast<int>(b));
+  std::vector<int> group(blocks.size(), -1);
+  std::vector<std::vector<int>> groups;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    std::vector<char> used(groups.size() + 1, 0);
+    for (int f : blocks[b].faces)
+      for (int other : at_face[f])
+        if (group[other] >= 0) used[group[other]] = 1;
+    group[b] = static_cast<int>(std::find(used.begin(), used.end(), 0) - used.begin());
+    if (group[b] == static_cast<int>(groups.size())) groups.emplace_back();
+    groups[group[b]].push_back(static_cast<int>(b));
+  }
+  return groups;
+}
+
+}  // namespace
+
+void lower_distortion_locally(Atlas& atlas, int sweeps, Progress& progress) {
+  seat_boundary(atlas);
+  std::vector<int> faces(atlas.surface->mesh.faces.size());
+  std::iota(faces.begin(), faces.end(), 0);
+  const std::vector<ReferenceShape> shapes = reference_shapes(atlas, faces);
+  const std::vector<Block> blocks = overlapping_blocks(atlas);
+  const auto groups = independent_groups(blocks, faces.size());
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      progress.report("lower distortion", (sweep + double(g) / groups.size()) / sweeps);
+      parallel_for(groups[g].size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const Block& block = blocks[groups[g][i]];
+          std::vector<ReferenceShape> own;
+          for (int f : block.faces) own.push_back(shapes[f]);
+          const DistortionEnergy energy(atlas, block.vertices, block.faces, own, kAreaWeight);
+          std::vector<double> x = energy.positions(atlas);
+          lower_peaks(energy, x);
+          NewtonDescent descent(energy, x);
+          for (int step = 0; step < kBlockSteps; ++step)
+            if (descent.step() < kBlockGain) break;
+          energy.write_back(x, atlas);
+        }
+      });
+    }
+  atlas.reassign_all();
 }
 
 }  // namespace gsp

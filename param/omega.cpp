@@ -31,8 +31,8 @@ double shape_distortion(const Vec3& a, const Vec3& b, const Vec3& c, double area
 }  // namespace
 
 Pricer::Pricer(const Surface& surface, const TriangleComplex& complex, const std::vector<Location>& locations,
-               const std::vector<std::vector<int>>& points, const ParameterizeOptions& options)
-    : surface_(surface), complex_(complex), locations_(locations), points_(points), options_(options) {}
+               const std::vector<std::vector<int>>& points, const ParameterizeOptions& options, bool chords)
+    : surface_(surface), complex_(complex), locations_(locations), points_(points), options_(options), chords_(chords) {}
 
 bool Pricer::flat_of(int vertex, Complex& flat) const {
   if (vertex == star_.center) {
@@ -139,6 +139,7 @@ bool Pricer::triangulate(Candidate& candidate) {
       const int j = i + span;
       const bool diagonal = span < n - 1 || star_.boundary;
       if (diagonal && complex_.edge_exists(star_.ring[i], star_.ring[j])) continue;
+      if (!chords_ && span < n - 1 && complex_.on_boundary(star_.ring[i]) && complex_.on_boundary(star_.ring[j])) continue;
       for (int k = i + 1; k < j; ++k) {
         const double inner = best_[i * n + k] + best_[k * n + j];
         if (inner >= best_[i * n + j] || cross(ring_[k] - ring_[i], ring_[j] - ring_[i]) < kSmallestFlatArea) continue;

@@ -2,25 +2,10 @@
 
 #include <vector>
 
+#include "param/location.h"
 #include "param/parameterize.h"
-#include "param/triangle_complex.h"
 
 namespace gsp {
-
-/// Where every vertex of the surface lies on the shrinking complex: a vertex of the complex, or a point of one triangle.
-struct Location {
-  int triangle = -1;    ///< -1 for vertices of the complex
-  double weight1 = 0.0; ///< barycentric weight of the triangle's corner 1
-  double weight2 = 0.0; ///< and of corner 2
-};
-
-/// Where a point of the star's triangle k lies in the plane of the flattened ring.
-inline Complex flat_in_star(const TriangleComplex& complex, const Star& star, const std::vector<Complex>& ring, int k,
-                            const Location& at) {
-  const int m = complex.corner_index(at.triangle, star.center);
-  const double weight[3] = {1.0 - at.weight1 - at.weight2, at.weight1, at.weight2};
-  return weight[(m + 1) % 3] * ring[k] + weight[(m + 2) % 3] * ring[(k + 1) % star.size()];
-}
 
 /// What removing a vertex would cost and how its hole would be filled.
 struct Candidate {
@@ -32,7 +17,8 @@ struct Candidate {
 /// Prices vertex removals with the paper's Ω (§3.1.1): σ, ρ and δ shifted to zero, weighted by the patch areas. The hole is
 /// filled by the triangulation of least Σ A (γ(σ-1)² + μ(ρ-1)² + (δ-1)²), found by dynamic programming over the flattened ring
 /// (ρ between two new triangles is left out there, and counted in the price). δ is measured on at most `kSamples` points of
-/// the star, evenly strided, so that late removals with large patches stay cheap. Safe to use from several threads, one
+/// the star, evenly strided, so that late removals with large patches stay cheap. `chords`: whether an edge inside the complex may
+/// join two of its boundary vertices. Safe to use from several threads, one
 /// pricer each.
 class Pricer {
  public:
@@ -40,8 +26,9 @@ class Pricer {
   static constexpr int kLargestRing = 32;
 
   Pricer(const Surface& surface, const TriangleComplex& complex, const std::vector<Location>& locations,
-         const std::vector<std::vector<int>>& points, const ParameterizeOptions& options);
+         const std::vector<std::vector<int>>& points, const ParameterizeOptions& options, bool chords);
 
+  /// `candidate`: with parts and triangles where it is feasible.
   void price(int vertex, Candidate& candidate);
 
   /// Star of the vertex priced last.
@@ -74,6 +61,7 @@ class Pricer {
   const std::vector<Location>& locations_;
   const std::vector<std::vector<int>>& points_;
   const ParameterizeOptions& options_;
+  bool chords_;
 
   Star star_;
   std::vector<Complex> ring_;

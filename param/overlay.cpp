@@ -3,26 +3,24 @@
 #include <algorithm>
 
 #include "mesh/error.h"
+#include "param/composition.h"
 #include "param/flatten.h"
-#include "param/omega.h"
 
 namespace gsp {
 
 namespace {
 
-constexpr double kSnap = 0.2;           // of a crossed edge, within which its end is moved onto the cut instead
-constexpr double kSmall = 1e-8;         // area of a piece in the plane, the ring's radius being 1, below which it is made larger
-constexpr double kLeast = 1e-13;        // share of a triangle, below which rounding could fold a piece
-constexpr int kRelaxations = 3;
-constexpr double kGain = 1.01;
-constexpr int kLongestCut = 1 << 20;
+using Hold = PlanarRegion::Hold;
+
+constexpr double kLeast = 1e-13;  // share of a triangle, below which rounding could fold a piece
 
 }  // namespace
 
 OverlayMap::OverlayMap(std::shared_ptr<const Surface> surface)
     : surface_(std::move(surface)),
       complex_(*surface_),
-      refined_(surface_),
+      refined_(std::make_unique<RefinedSurface>(surface_)),
+      region_(*refined_),
       place_(surface_->mesh.positions.size()),
       pieces_(surface_->mesh.faces.size()),
       ring_index_(surface_->mesh.positions.size(), -1),
@@ -52,261 +50,105 @@ OverlayMap::Backup OverlayMap::lay_out(int vertex) {
   complex_.gather(vertex, star_);
   flatten_star(surface_->mesh.positions, star_, ring_);
   for (int k = 0; k < star_.size(); ++k) ring_index_[star_.ring[k]] = k;
-  region_.clear();
+  std::vector<int> faces;
   for (std::size_t k = 0; k < star_.triangles.size(); ++k) {
     const int t = star_.triangles[k];
     star_index_[t] = static_cast<int>(k);
     for (int f : pieces_[t])
-      if (refined_.alive(f)) region_.push_back(f);
+      if (refined_->alive(f)) faces.push_back(f);
     backup.pieces.push_back(std::move(pieces_[t]));
     pieces_[t].clear();
   }
-  piece_state_.resize(refined_.face_slots(), PieceState::Outside);
-  for (int f : region_) piece_state_[f] = PieceState::Open;
-  const std::size_t count = refined_.vertex_count();
-  flat_.resize(count);
-  in_region_.resize(count, 0);
-  hold_.resize(count, Hold::Free);
-  region_vertices_.clear();
-  for (int f : region_)
-    for (int v : refined_.corners(f)) {
-      if (in_region_[v]) continue;
-      in_region_[v] = 1;
-      region_vertices_.push_back(v);
-      flat_[v] = flat_of(v);
-      const Place& at = place_[v];
-      const bool on_ring = at.triangle < 0 && at.a != star_.center && at.b != star_.center;
-      hold_[v] = on_ring ? Hold::Ring : Hold::Free;
-      backup.place.push_back(at);
-    }
-  backup.refined = refined_.snapshot(region_, region_vertices_);
+  region_.begin(faces);
+  for (int v : region_.vertices()) {
+    const Place& at = place_[v];
+    const bool on_ring = at.triangle < 0 && at.a != star_.center && at.b != star_.center;
+    region_.place(v, flat_of(v), on_ring ? Hold::Ring : Hold::Free);
+    backup.place.push_back(at);
+  }
+  backup.refined = refined_->snapshot(faces, region_.vertices());
   return backup;
 }
 
 void OverlayMap::leave() {
-  for (int f : region_) piece_state_[f] = PieceState::Outside;
-  for (int v : region_vertices_) in_region_[v] = 0;
+  region_.leave();
   for (int v : star_.ring) ring_index_[v] = -1;
 }
 
 void OverlayMap::take_back(const Backup& backup) {
   leave();
-  refined_.restore(backup.refined);
-  place_.resize(refined_.vertex_count());
-  flat_.resize(place_.size());
-  in_region_.resize(place_.size());
-  hold_.resize(place_.size());
-  piece_state_.resize(refined_.face_slots());
-  for (std::size_t i = 0; i < backup.place.size(); ++i) place_[region_vertices_[i]] = backup.place[i];
+  refined_->restore(backup.refined);
+  place_.resize(refined_->vertex_count());
+  for (std::size_t i = 0; i < backup.place.size(); ++i) place_[region_.vertices()[i]] = backup.place[i];
   for (std::size_t k = 0; k < star_.triangles.size(); ++k) pieces_[star_.triangles[k]] = backup.pieces[k];
-}
-
-/// Moves a vertex to where a cut meets one of its edges, at a share of its length, if that spoils no piece: the nearer, the
-/// worse would be the slivers beside the vertex where it was.
-bool OverlayMap::move_onto_cut(int v, Complex to, double share) {
-  if (share > kSnap) return false;
-  if (hold_[v] != Hold::Free || (!refined_.added(v) && surface_->halfedges.boundary_vertex(v))) return false;
-  bool possible = true;
-  refined_.for_each_outgoing(v, [&](int h) {
-    const Complex x = flat_[refined_.to(h)], y = flat_[refined_.from(Halfedges::prev(h))];
-    possible &= thickness(to, x, y) > std::min(kThin, kWorse * share / kSnap * thickness(flat_[v], x, y));
-  });
-  if (possible) flat_[v] = to;
-  return possible;
-}
-
-/// The vertex after `at` on the cut toward ring vertex j, which is added, or moved there, where there is none; -1 where the
-/// pieces in its way have no area to cut.
-int OverlayMap::next_on_cut(int at, int j) {
-  const int target = star_.ring[j];
-  const Complex direction = flat_[target] - flat_[at];
-  int crossed = -1, found = -1;
-  double share = 0.0;
-  refined_.for_each_outgoing(at, [&](int h) {
-    if (piece_state_[h / 3] != PieceState::Open) return;
-    const int p = refined_.to(h), q = refined_.from(Halfedges::prev(h));
-    if (p == target || q == target) found = target;
-    if (found >= 0 || crossed >= 0) return;
-    const double right = cross(direction, flat_[p] - flat_[at]), left = cross(direction, flat_[q] - flat_[at]);
-    const int next = Halfedges::next(h);
-    if (right > 0.0 || left <= 0.0) return;
-    crossed = next;
-    share = right / (right - left);
-  });
-  if (found >= 0) return found;
-  if (crossed < 0 || refined_.twin(crossed) < 0 || piece_state_[refined_.twin(crossed) / 3] != PieceState::Open)
-    return -1;
-  const int p = refined_.from(crossed), q = refined_.to(crossed);
-  const Complex at_cut = (1.0 - share) * flat_[p] + share * flat_[q];
-  if (move_onto_cut(p, at_cut, share)) return p;
-  if (move_onto_cut(q, at_cut, 1.0 - share)) return q;
-  if (!(share > 0.0 && share < 1.0)) return -1;
-  const int before = refined_.face_slots();
-  const int added = refined_.split(crossed, share);
-  for (int f = before; f < refined_.face_slots(); ++f) {
-    region_.push_back(f);
-    piece_state_.push_back(PieceState::Open);
-  }
-  place_.emplace_back();
-  flat_.push_back(at_cut);
-  in_region_.push_back(1);
-  hold_.push_back(Hold::Free);
-  region_vertices_.push_back(added);
-  return added;
-}
-
-/// Cuts the pieces along the new edge between ring vertices i and j, if they can be.
-bool OverlayMap::cut(int i, int j) {
-  const int start = star_.ring[i], end = star_.ring[j];
-  int at = start;
-  for (int step = 0; step < kLongestCut; ++step) {
-    at = next_on_cut(at, j);
-    if (at == end) return true;
-    if (at < 0) return false;
-    place_[at] = {-1, start, end, 0.0, 0.0};
-    hold_[at] = Hold::Edge;
-  }
-  return false;
 }
 
 bool OverlayMap::cut_all(const Removal& removal) {
   // Every new edge joins the first and the last corner of exactly one triangle.
   return std::all_of(removal.triangles.begin(), removal.triangles.end(), [&](const RingTriangle& t) {
-    return (t[0] == 0 && t[2] == star_.size() - 1) || cut(t[0], t[2]);
+    return (t[0] == 0 && t[2] == star_.size() - 1) || region_.cut(star_.ring[t[0]], star_.ring[t[2]]);
   });
 }
 
 /// The two boundary edges at the centre have become one.
 void OverlayMap::straighten_boundary() {
   const int first = star_.ring.front(), last = star_.ring.back();
-  for (int v : region_vertices_)
-    if (v == star_.center || on_side(place_[v], star_.center, first) || on_side(place_[v], star_.center, last)) {
-      if (v == first || v == last) continue;
-      place_[v] = {-1, first, last, 0.0, 0.0};
-      hold_[v] = Hold::Edge;
-    }
-}
-
-/// How far along the new edge on which v lies a place is, 0 to 1 from its `a` to its `b`.
-double OverlayMap::share_on_edge(int v, Complex at) const {
-  const Complex a = ring_[ring_index_[place_[v].a]], b = ring_[ring_index_[place_[v].b]];
-  return std::real((at - a) / (b - a));
+  for (int v : region_.vertices())
+    if (v != first && v != last && static_cast<std::size_t>(v) < place_.size() &&
+        (on_side(place_[v], star_.center, first) || on_side(place_[v], star_.center, last)))
+      region_.put_on(v, {first, last});
 }
 
 /// Gives the pieces inside one new triangle to it, if they are all large enough.
 bool OverlayMap::fill(int slot, const RingTriangle& triangle) {
   const int corner[3] = {star_.ring[triangle[0]], star_.ring[triangle[1]], star_.ring[triangle[2]]};
   int seed = -1;
-  refined_.for_each_outgoing(corner[0], [&](int h) {
-    const int to = refined_.to(h);
+  refined_->for_each_outgoing(corner[0], [&](int h) {
+    const int to = refined_->to(h);
     if (to != corner[0] && on_side(place_[to], corner[0], corner[1])) seed = h / 3;
   });
   if (seed < 0) return false;
   std::vector<int>& pieces = pieces_[slot];
   pieces.assign(1, seed);
-  piece_state_[seed] = PieceState::Filled;
+  filled_[seed] = 1;
   for (std::size_t i = 0; i < pieces.size(); ++i)
     for (int k = 0; k < 3; ++k) {
-      const int h = 3 * pieces[i] + k, p = refined_.from(h), q = refined_.to(h);
+      const int h = 3 * pieces[i] + k, other = refined_->twin(h);
+      if (other < 0 || !region_.holds_face(other / 3) || filled_[other / 3]) continue;
+      const Place &p = place_[refined_->from(h)], &q = place_[refined_->to(h)];
       bool side = false;
       for (int s = 0; s < 3; ++s)
-        side |= on_side(place_[p], corner[s], corner[(s + 1) % 3]) && on_side(place_[q], corner[s], corner[(s + 1) % 3]);
-      const int other = refined_.twin(h);
-      if (side || other < 0 || piece_state_[other / 3] != PieceState::Open) continue;
-      piece_state_[other / 3] = PieceState::Filled;
+        side |= on_side(p, corner[s], corner[(s + 1) % 3]) && on_side(q, corner[s], corner[(s + 1) % 3]);
+      if (side) continue;
+      filled_[other / 3] = 1;
       pieces.push_back(other / 3);
     }
-  const double whole = chart_area(ring_[triangle[0]], ring_[triangle[1]], ring_[triangle[2]]);
+  const Complex plane[3] = {ring_[triangle[0]], ring_[triangle[1]], ring_[triangle[2]]};
+  const double whole = chart_area(plane[0], plane[1], plane[2]);
   for (int f : pieces) {
-    const Triangle& t = refined_.corners(f);
-    if (!(chart_area(flat_[t[0]], flat_[t[1]], flat_[t[2]]) > kLeast * whole)) return false;
-    for (int v : t) {
-      if (hold_[v] == Hold::Ring) continue;
-      if (hold_[v] == Hold::Edge) {
-        place_[v].weight1 = share_on_edge(v, flat_[v]);
-        continue;
-      }
-      const auto w = barycentric(flat_[v], ring_[triangle[0]], ring_[triangle[1]], ring_[triangle[2]]);
+    if (!(region_.area(f) > kLeast * whole)) return false;
+    for (int v : refined_->corners(f)) {
+      if (region_.hold(v) != Hold::Free) continue;
+      const auto w = barycentric(region_.flat(v), plane[0], plane[1], plane[2]);
       place_[v] = {slot, -1, -1, w[1], w[2]};
     }
   }
   return true;
 }
 
-/// Takes added vertices that lie on no edge of the complex any more out again.
-void OverlayMap::take_out() {
-  for (int v : region_vertices_) {
-    if (!refined_.added(v) || hold_[v] != Hold::Free) continue;
-    const auto link = [&](int out) {
-      return std::pair(flat_[refined_.to(out)], flat_[refined_.from(Halfedges::prev(out))]);
-    };
-    const int along = refined_.collapsible(v, flat_[v], link);
-    if (along >= 0) refined_.collapse(along);
-  }
-}
-
-double OverlayMap::quality(Complex a, Complex b, Complex c) {
-  const double thick = thickness(a, b, c);
-  return thick > 0.0 ? std::min(1.0, chart_area(a, b, c) / kSmall) * std::min(1.0, thick / kThin) : thick;
-}
-
-/// The least quality of the pieces around v, were it at a place.
-double OverlayMap::least_quality(int v, Complex at) const {
-  double least = 1.0;
-  refined_.for_each_outgoing(v, [&](int h) {
-    least = std::min(least, quality(at, flat_[refined_.to(h)], flat_[refined_.from(Halfedges::prev(h))]));
-  });
-  return least;
-}
-
-/// Moves vertices of pieces that are too thin, or too small for rounding, toward the middle of their neighbours. Otherwise
-/// pieces get worse from removal to removal, and thin ones are cut most often.
-void OverlayMap::relax() {
-  std::vector<int> moving;
-  for (int f : region_) {
-    const Triangle& t = refined_.corners(f);
-    if (quality(flat_[t[0]], flat_[t[1]], flat_[t[2]]) >= 1.0) continue;
-    for (int v : t)
-      if (hold_[v] != Hold::Ring) moving.push_back(v);
-  }
-  std::sort(moving.begin(), moving.end());
-  moving.erase(std::unique(moving.begin(), moving.end()), moving.end());
-  for (int pass = 0; pass < kRelaxations; ++pass) {
-    const auto left = std::remove_if(moving.begin(), moving.end(), [&](int v) { return !relax(v); });
-    moving.erase(left, moving.end());
-  }
-}
-
-bool OverlayMap::relax(int v) {
-  if (hold_[v] == Hold::Free && !refined_.added(v) && surface_->halfedges.boundary_vertex(v)) return false;
-  Complex middle = 0.0;
-  int neighbours = 0;
-  refined_.for_each_outgoing(v, [&](int h) {
-    middle += flat_[refined_.to(h)];
-    ++neighbours;
-  });
-  middle /= neighbours;
-  if (hold_[v] == Hold::Edge) {  // along its edge only
-    const Complex a = ring_[ring_index_[place_[v].a]], b = ring_[ring_index_[place_[v].b]];
-    middle = a + share_on_edge(v, middle) * (b - a);
-  }
-  const double before = least_quality(v, flat_[v]);
-  for (double step = 1.0; step > 0.1; step *= 0.5) {
-    const Complex at = flat_[v] + step * (middle - flat_[v]);
-    if (least_quality(v, at) <= std::max(0.0, kGain * before)) continue;
-    flat_[v] = at;
-    return true;
-  }
-  return false;
-}
-
 bool OverlayMap::remove(const Removal& removal) {
   const Backup backup = lay_out(removal.vertex);
-  relax();
+  region_.relax();
   bool possible = cut_all(removal);
   if (possible) {
     if (star_.boundary) straighten_boundary();
-    relax();
+    region_.relax();
+    place_.resize(refined_->vertex_count());
+    for (int v : region_.vertices())
+      if (region_.hold(v) == Hold::Edge)
+        place_[v] = {-1, region_.line(v).first, region_.line(v).second, region_.share_on_line(v), 0.0};
+    filled_.resize(refined_->face_slots(), 0);
+    for (int f : region_.faces()) filled_[f] = 0;
     for (std::size_t t = 0; t < removal.triangles.size() && possible; ++t)
       possible = fill(star_.triangles[t], removal.triangles[t]);
   }
@@ -315,9 +157,22 @@ bool OverlayMap::remove(const Removal& removal) {
     return false;
   }
   complex_.replace(star_, removal.triangles, slots_);
-  take_out();
+  region_.take_out();
   leave();
   return true;
+}
+
+std::vector<double> OverlayMap::areas() const {
+  std::vector<double> areas(pieces_.size(), 0.0);
+  for (std::size_t t = 0; t < pieces_.size(); ++t)
+    for (int f : pieces_[t]) {
+      if (!refined_->alive(f)) continue;
+      const int origin = refined_->origin(f);
+      const Triangle& c = refined_->corners(f);
+      const auto a = refined_->weights_in(c[0], origin), b = refined_->weights_in(c[1], origin), d = refined_->weights_in(c[2], origin);
+      areas[t] += surface_->face_area[origin] * ((b[1] - a[1]) * (d[2] - a[2]) - (b[2] - a[2]) * (d[1] - a[1]));
+    }
+  return areas;
 }
 
 /// Where a vertex lies in its home chart.
@@ -351,7 +206,7 @@ Atlas OverlayMap::atlas_on(const RefinedSurface::Compact& compact) const {
   const Surface& surface = *atlas.surface;
   const int count = surface.mesh.vertex_count();
   std::vector<Place> place(count);
-  for (int v = 0; v < refined_.vertex_count(); ++v)
+  for (int v = 0; v < refined_->vertex_count(); ++v)
     if (compact.vertex[v] >= 0) place[compact.vertex[v]] = place_[v];
   atlas.corner.assign(count, -1);
   for (int v = 0; v < surface_->mesh.vertex_count(); ++v) {
@@ -360,7 +215,7 @@ Atlas OverlayMap::atlas_on(const RefinedSurface::Compact& compact) const {
     atlas.base.vertices.push_back(v);
   }
   std::vector<int> chart(surface.mesh.faces.size());  // per piece
-  std::vector<int> piece_chart(refined_.face_slots(), -1);
+  std::vector<int> piece_chart(refined_->face_slots(), -1);
   for (int t = 0; t < complex_.slot_count(); ++t) {
     if (!complex_.alive(t)) continue;
     const Triangle& c = complex_.corners(t);
@@ -389,9 +244,15 @@ Atlas OverlayMap::atlas_on(const RefinedSurface::Compact& compact) const {
 }
 
 RefinedMap OverlayMap::coarsened() && {
-  RefinedSurface::Compact compact = refined_.compact();
+  RefinedSurface::Compact compact = refined_->compact();
   Atlas atlas = atlas_on(compact);
-  return coarsen({std::move(refined_), std::move(atlas), std::move(compact.vertex), std::move(compact.halfedge)});
+  return coarsen({std::move(*refined_), std::move(atlas), std::move(compact.vertex), std::move(compact.halfedge)});
+}
+
+std::optional<RefinedMap> OverlayMap::followed_by(const RefinedMap& map) && {
+  Composition composition(*this, map);
+  if (!composition.cut()) return std::nullopt;
+  return coarsen(composition.finish());
 }
 
 }  // namespace gsp

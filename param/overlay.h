@@ -1,10 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "param/atlas.h"
 #include "param/coarsen.h"
+#include "param/location.h"
+#include "param/planar_region.h"
 #include "param/refined_surface.h"
 #include "param/triangle_complex.h"
 
@@ -23,13 +26,22 @@ class OverlayMap {
   /// rounding.
   bool remove(const Removal& removal);
 
-  /// The map onto the present complex. The surface's own vertices come first, then those that cuts have added. O(V).
-  Atlas atlas() const { return atlas_on(refined_.compact()); }
+  const std::shared_ptr<const Surface>& surface() const { return surface_; }
+  const TriangleComplex& complex() const { return complex_; }
+  /// Per triangle of the complex, the area of the part of the surface in it. O(pieces).
+  std::vector<double> areas() const;
 
-  const RefinedSurface& refined() const { return refined_; }
+  /// The map onto the present complex. The surface's own vertices come first, then those that cuts have added. O(V).
+  Atlas atlas() const { return atlas_on(refined_->compact()); }
+
+  const RefinedSurface& refined() const { return *refined_; }
 
   /// The same without the added vertices that the map does not need (`gsp::coarsen`).
   RefinedMap coarsened() &&;
+
+  /// The map followed by one of the complex, as `coarse_surface` makes a surface of it, onto a base. The pieces are cut once
+  /// more where the second map bends within a triangle. Nothing where rounding would spoil a piece. O(V).
+  std::optional<RefinedMap> followed_by(const RefinedMap& map) &&;
 
  private:
   /// Where a vertex lies on the complex: in a triangle, on an edge between two of its vertices, or at one.
@@ -38,6 +50,8 @@ class OverlayMap {
     int a = -1, b = -1;
     double weight1 = 0.0, weight2 = 0.0;  ///< of the triangle's corners 1 and 2; on an edge weight1 is that of b
   };
+  friend class Composition;
+
   static bool on_side(const Place& at, int a, int b);
   static Complex home_position(const Atlas& atlas, int v, const Place& at);
   static Transition to_home(const Atlas& atlas, int v, int chart, const Place& at);
@@ -53,22 +67,14 @@ class OverlayMap {
   Backup lay_out(int vertex);
   void take_back(const Backup& backup);
   void leave();
-  bool cut(int i, int j);
   bool cut_all(const Removal& removal);
-  int next_on_cut(int at, int j);
-  bool move_onto_cut(int v, Complex to, double share);
   void straighten_boundary();
-  double share_on_edge(int v, Complex at) const;
   bool fill(int slot, const RingTriangle& triangle);
-  static double quality(Complex a, Complex b, Complex c);
-  double least_quality(int v, Complex at) const;
-  void relax();
-  bool relax(int v);
-  void take_out();
 
   std::shared_ptr<const Surface> surface_;
   TriangleComplex complex_;
-  RefinedSurface refined_;
+  std::unique_ptr<RefinedSurface> refined_;  ///< where it is known to `region_`
+  PlanarRegion region_;
   std::vector<Place> place_;                ///< per vertex
   std::vector<std::vector<int>> pieces_;    ///< per triangle of the complex, the faces in it
 
@@ -76,15 +82,9 @@ class OverlayMap {
   Star star_;
   std::vector<Complex> ring_;
   std::vector<int> slots_;
-  std::vector<int> region_, region_vertices_;
   std::vector<int> ring_index_;             ///< per vertex of the surface
   std::vector<int> star_index_;             ///< per triangle
-  std::vector<Complex> flat_;               ///< per vertex
-  enum class Hold : char { Free, Edge, Ring };  ///< Edge: on an edge that is new
-  std::vector<char> in_region_;             ///< per vertex
-  std::vector<Hold> hold_;                  ///< per vertex
-  enum class PieceState : char { Outside, Open, Filled };
-  std::vector<PieceState> piece_state_;     ///< per face
+  std::vector<char> filled_;                ///< per face
 };
 
 }  // namespace gsp

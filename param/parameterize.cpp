@@ -10,24 +10,18 @@
 
 #include "mesh/atomic_file.h"
 #include "mesh/topology.h"
-#include "param/best_map.h"
-#include "param/descend_corners.h"
-#include "param/folds.h"
 #include "param/linear_map.h"
-#include "param/lower_distortion.h"
 #include "param/maps_smoothing.h"
-#include "param/relax_corners.h"
 #include "param/relax_patch_pairs.h"
-#include "param/repair.h"
 #include "param/simplify.h"
+#include "param/smooth_levels.h"
 #include "param/weights.h"
 
 namespace gsp {
 
 namespace {
 
-constexpr double kRoughly = 2e-3, kFinely = 1e-4;  // gain of a step that ends lowering the distortion, between and after relaxations
-constexpr int kRings = 16;                    // of the discs that are untangled in the end
+constexpr int kLevels = 2;                  // of the simplification, of which the coarser one is smoothed as a whole
 constexpr int kAutomaticShare = 64;         // vertices per base vertex, of which the automatic stop falls short or not
 constexpr int kPairPasses = 3;              // of the hybrid baseline; more bring it nearer to the global solution
 constexpr double kLongestEdge = 0.25;       // of the edge of an equilateral patch of mean area
@@ -55,53 +49,24 @@ std::vector<std::string> provenance(const Mesh& input, const ParameterizeOptions
           line("input_vertices", input.vertex_count()), line("input_faces", input.face_count())};
 }
 
-[[noreturn]] void give_up(const Folds& folds) {
-  const std::string counts = std::to_string(folds.faces.size()) + " faces stay folded in their chart and " +
-                             std::to_string(folds.vertices.size()) + " vertices wrongly wound";
-  if (folds.faces.empty()) throw Error(Cause::InvalidMap, counts, Element::Vertex, folds.vertices.front());
-  throw Error(Cause::InvalidMap, counts, Element::Face, folds.faces.front());
-}
-
 /// What the methods on one base complex share.
 struct Start {
-  Atlas maps;
-  std::optional<RefinedMap> injective;  ///< for Method::Gsp alone
+  std::optional<Atlas> maps;            ///< for the baselines alone
+  std::optional<Atlas> injective;       ///< for Method::Gsp alone
+  std::vector<int> base_vertices;       ///< of the surface, as the simplification left them
+  int rounds = 0;                       ///< of relaxation that `injective` has seen
   std::vector<OmegaRecord> omega;
 };
-
-/// The map of least distortion: from the initial map without its folds, lowering the energy and relaxing the corners in turn.
-Atlas low_distortion_map(const Start& start, const ParameterizeOptions& options,
-                         ParameterizeResult& result, Progress& progress) {
-  result.flips_before_repair = static_cast<int>(find_folds(start.maps).faces.size());
-  RefinedMap rough = *start.injective;
-  lower_distortion(rough.atlas, kRoughly, progress);
-  // Where the map has become smooth it needs fewer added vertices.
-  Atlas atlas = coarsen(std::move(rough)).atlas;
-  const LinearWeights weights(*atlas.surface, options.weights);
-  BestMap best;
-  best.offer(atlas, 0);
-  for (int round = 1; round <= options.relaxations; ++round) {
-    const int moved = options.corners == Corners::Gradient
-                          ? descend_corners(atlas, options.objective, kRelaxationRadius, Folding::Refused)
-                          : relax_corners(atlas, weights, kRelaxationRadius, Folding::Refused);
-    if (moved == 0) break;
-    lower_distortion(atlas, kRoughly, progress);
-    best.offer(atlas, round);
-  }
-  result.relaxation_rounds = best.round();
-  atlas = best.atlas();
-  lower_distortion(atlas, kFinely, progress);
-  return atlas;
-}
 
 /// Makes the map without folds by the method and objective asked for, and counts how its corners moved.
 Atlas smooth_map(const Start& start, const ParameterizeOptions& options, ParameterizeResult& result,
                  Progress& progress) {
   const Atlas atlas = options.objective == Objective::Linear
-                          ? linear_map(start.injective->atlas, options, result, progress)
-                          : low_distortion_map(start, options, result, progress);
+                          ? linear_map(*start.injective, options, result, progress)
+                          : *start.injective;
+  if (options.objective == Objective::Distortion) result.relaxation_rounds = start.rounds;
   for (int b = 0; b < atlas.base.vertex_count(); ++b)
-    result.corners_moved += atlas.base.vertices[b] != start.maps.base.vertices[b];
+    result.corners_moved += atlas.base.vertices[b] != start.base_vertices[b];
   return atlas;
 }
 
@@ -120,21 +85,27 @@ Mesh refined(Mesh mesh, const ParameterizeOptions& options, Progress& progress) 
   return mesh;
 }
 
-/// Simplifies the surface, and makes the map without folds where it is asked for.
-Start make_start(const Mesh& mesh, bool injective, const ParameterizeOptions& options, Progress& progress) {
+/// Simplifies the surface, and makes what the methods start from.
+Start make_start(const Mesh& mesh, const std::vector<Method>& methods, const ParameterizeOptions& options,
+                 Progress& progress) {
   const auto surface = std::make_shared<const Surface>(refined(mesh, options, progress));
-  SimplifyResult simplified = simplify(surface, options, progress);
-  Start start{std::move(simplified.atlas), {}, std::move(simplified.omega)};
-  if (injective) {
-    start.injective = std::move(simplified.overlay).coarsened();
-    Atlas& atlas = start.injective->atlas;
-    const int added = atlas.surface->mesh.vertex_count() - surface->mesh.vertex_count();
+  const auto injective = std::count(methods.begin(), methods.end(), Method::Gsp);
+  SimplifyResult simplified = simplify(surface, options, injective > 0 ? kLevels : 1, progress);
+  Start start;
+  start.omega = std::move(simplified.omega);
+  start.base_vertices = remaining_vertices(*surface, simplified.removals);
+  if (injective < static_cast<int>(methods.size())) start.maps = maps_of(simplified);
+  if (injective > 0) {
+    ParameterizeOptions smoothing = options;
+    if (options.objective == Objective::Linear) smoothing.relaxations = 0;  // it relaxes the corners of its own solution
+    std::optional<SmoothedMap> smoothed = smooth_levels(std::move(simplified), smoothing, progress);
+    if (!smoothed) smoothed = smooth_levels(simplify(surface, options, 1, progress), smoothing, progress);
+    start.rounds = smoothed->rounds;
+    start.injective = std::move(smoothed->atlas);
+    const int added = start.injective->surface->mesh.vertex_count() - surface->mesh.vertex_count();
     if (added > 0) progress.note(std::to_string(added) + " vertices were added where the map needs more freedom");
-    const Folds folds = repair_folds(atlas, kRings, progress);
-    if (!folds.none()) give_up(folds);
-    atlas.reassign_all();
   }
-  const int left = start.maps.base.vertex_count();
+  const int left = static_cast<int>(start.base_vertices.size());
   if (options.base_vertices > 0 && left > options.base_vertices)
     progress.note("no further vertex can be removed: the base has " + std::to_string(left) + " vertices instead of " +
                   std::to_string(options.base_vertices));
@@ -144,7 +115,7 @@ Start make_start(const Mesh& mesh, bool injective, const ParameterizeOptions& op
 ParameterizeResult finish(const Mesh& input, const Start& start, Method method, const ParameterizeOptions& options,
                           Progress& progress) {
   ParameterizeResult result;
-  Atlas atlas = method == Method::Gsp ? smooth_map(start, options, result, progress) : start.maps;
+  Atlas atlas = method == Method::Gsp ? smooth_map(start, options, result, progress) : *start.maps;
   if (method == Method::MapsSmoothed) smooth_by_loop(atlas, progress);
   if (method == Method::Hybrid)
     relax_patch_pairs(atlas, LinearWeights(*atlas.surface, options.weights), kPairPasses, progress);
@@ -200,8 +171,7 @@ std::vector<ParameterizeResult> parameterize_all(const Mesh& mesh, const std::ve
                                                  const ParameterizeOptions& options, Progress& progress) {
   check_options(options);
   require_parameterizable(mesh);
-  const bool injective = std::find(methods.begin(), methods.end(), Method::Gsp) != methods.end();
-  const Start start = make_start(mesh, injective, options, progress);
+  const Start start = make_start(mesh, methods, options, progress);
   std::vector<ParameterizeResult> results;
   for (Method method : methods) {
     results.push_back(finish(mesh, start, method, options, progress));

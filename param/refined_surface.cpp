@@ -55,24 +55,56 @@ void RefinedSurface::halve(int h, int middle) {
   outgoing_[c] = 3 * g + 2;
 }
 
-int RefinedSurface::split(int h, double share) {
-  const int twin = twin_[h], a = from(h), b = to(h), middle = vertex_count();
-  const int face = origin_[h / 3];
-  const std::array<double, 3> wa = weights_in(a, face), wb = weights_in(b, face);
-  std::array<double, 3> w;
-  for (int k = 0; k < 3; ++k) w[k] = (1.0 - share) * wa[k] + share * wb[k];
+/// A vertex at a place of an original face, on whose border it lies where a weight is zero.
+int RefinedSurface::add_vertex(int original_face, const std::array<double, 3>& weights) {
   Support support;
   for (int k = 0; k < 3; ++k) {
-    if (wa[(k + 2) % 3] != 0.0 || wb[(k + 2) % 3] != 0.0) continue;
-    support.edge = original_->edge_of[3 * face + k];
-    support.weight[0] = original_->edge_halfedge[support.edge] == 3 * face + k ? w[(k + 1) % 3] : w[k];
+    if (weights[(k + 2) % 3] != 0.0) continue;
+    const int h = 3 * original_face + k;
+    support.edge = original_->edge_of[h];
+    support.weight[0] = original_->edge_halfedge[support.edge] == h ? weights[(k + 1) % 3] : weights[k];
   }
   if (support.edge < 0) {
-    support.face = face;
-    support.weight = {w[1], w[2]};
+    support.face = original_face;
+    support.weight = {weights[1], weights[2]};
   }
   support_.push_back(support);
   outgoing_.push_back(-1);
+  return vertex_count() - 1;
+}
+
+int RefinedSurface::insert(int face, const std::array<double, 3>& weights) {
+  const Triangle t = faces_[face];
+  std::array<double, 3> place{};
+  for (int k = 0; k < 3; ++k) {
+    const std::array<double, 3> w = weights_in(t[k], origin_[face]);
+    for (int i = 0; i < 3; ++i) place[i] += weights[k] * w[i];
+  }
+  const int middle = add_vertex(origin_[face], place), second = face_slots(), third = second + 1;
+  faces_[face] = {t[0], t[1], middle};
+  faces_.push_back({t[1], t[2], middle});
+  faces_.push_back({t[2], t[0], middle});
+  const int origin = origin_[face];
+  origin_.resize(faces_.size(), origin);
+  twin_.resize(3 * faces_.size(), -1);
+  join(3 * second, twin_[3 * face + 1]);
+  join(3 * third, twin_[3 * face + 2]);
+  join(3 * face + 1, 3 * second + 2);
+  join(3 * second + 1, 3 * third + 2);
+  join(3 * third + 1, 3 * face + 2);
+  outgoing_[t[0]] = 3 * face;
+  outgoing_[t[1]] = 3 * second;
+  outgoing_[t[2]] = 3 * third;
+  outgoing_[middle] = 3 * face + 2;
+  return middle;
+}
+
+int RefinedSurface::split(int h, double share) {
+  const int twin = twin_[h], a = from(h), b = to(h), face = origin_[h / 3];
+  const std::array<double, 3> wa = weights_in(a, face), wb = weights_in(b, face);
+  std::array<double, 3> w;
+  for (int k = 0; k < 3; ++k) w[k] = (1.0 - share) * wa[k] + share * wb[k];
+  const int middle = add_vertex(face, w);
   halve(h, middle);
   const int second = 3 * (face_slots() - 1);  // (m, b)
   halve(twin, middle);

@@ -31,6 +31,10 @@ class RefinedSurface {
   int face_slots() const { return static_cast<int>(faces_.size()); }
   bool alive(int face) const { return faces_[face][0] >= 0; }
   const Triangle& corners(int face) const { return faces_[face]; }
+  /// The face of the original surface that a face is a piece of.
+  int origin(int face) const { return origin_[face]; }
+  /// Where a vertex lies in a face of the original surface that holds it: the weights of its corners.
+  std::array<double, 3> weights_in(int v, int original_face) const;
   int from(int h) const { return faces_[h / 3][h % 3]; }
   int to(int h) const { return from(Halfedges::next(h)); }
   int twin(int h) const { return twin_[h]; }
@@ -53,6 +57,10 @@ class RefinedSurface {
   /// at the start of its half-edge (h or its twin) and gives the other to a new face, the last two: first that of h.
   /// Returns the new vertex.
   int split(int h, double share);
+
+  /// Puts a vertex inside a face, with the weights of the face's corners, all positive: the face keeps its first side, two new
+  /// faces, the last two, get the others. Returns the new vertex.
+  int insert(int face, const std::array<double, 3>& weights);
 
   /// What `split` may change in some faces, and at all vertices of them.
   class Snapshot;
@@ -104,7 +112,7 @@ class RefinedSurface {
   }
 
   bool boundary(int v) const { return !added(v) && original_->halfedges.boundary_vertex(v); }
-  std::array<double, 3> weights_in(int v, int original_face) const;
+  int add_vertex(int original_face, const std::array<double, 3>& weights);
   void halve(int h, int middle);
   void join(int a, int b);
 

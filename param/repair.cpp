@@ -114,7 +114,7 @@ class Repair {
     if (vertices.empty() || vertices.size() > kLargestDisc) return;
     std::vector<Complex> before;
     for (int v : vertices) before.push_back(atlas_.position[v]);
-    const DistortionEnergy energy(atlas_, vertices, faces, kAreaWeight);
+    const DistortionEnergy energy(atlas_, vertices, faces, reference_shapes(atlas_, faces), kAreaWeight);
     std::vector<double> x = energy.positions(atlas_);
     if (!drive_apart(energy, x)) return;
     energy.write_back(x, atlas_);

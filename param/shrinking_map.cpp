@@ -17,17 +17,18 @@ Transition to_home(const Atlas& atlas, int vertex, int face) {
 
 }  // namespace
 
-ShrinkingMap::ShrinkingMap(std::shared_ptr<const Surface> surface)
+ShrinkingMap::ShrinkingMap(std::shared_ptr<const Surface> surface, bool classify)
     : surface_(std::move(surface)),
+      classify_(classify),
       complex_(*surface_),
       locations_(surface_->mesh.positions.size()),
       points_(surface_->mesh.faces.size()),
-      paths_(surface_->edge_count(), complex_.slot_count()) {}
+      paths_(classify ? surface_->edge_count() : 0, classify ? complex_.slot_count() : 0) {}
 
 void ShrinkingMap::remove(const Removal& removal) {
   complex_.gather(removal.vertex, star_);
   flatten_star(surface_->mesh.positions, star_, ring_);
-  paths_.begin(*surface_, star_, points_);
+  if (classify_) paths_.begin(*surface_, star_, points_);
   moving_.assign(1, star_.center);
   moving_flat_.assign(1, 0.0);
   for (std::size_t k = 0; k < star_.triangles.size(); ++k) {
@@ -55,7 +56,7 @@ void ShrinkingMap::remove(const Removal& removal) {
     locations_[moving_[i]] = {slots_[best_triangle], best[1], best[2]};
     points_[slots_[best_triangle]].push_back(moving_[i]);
   }
-  paths_.finish(*surface_, complex_, star_, removal.triangles, slots_, locations_);
+  if (classify_) paths_.finish(*surface_, complex_, star_, removal.triangles, slots_, locations_);
 }
 
 ShrinkingMap::Numbering ShrinkingMap::number_triangles() const {

@@ -13,7 +13,8 @@ namespace gsp {
 /// The surface's map onto the shrinking complex T^i of §3.1: a homeomorphism up to the straightening of edges.
 class ShrinkingMap {
  public:
-  explicit ShrinkingMap(std::shared_ptr<const Surface> surface);
+  /// `classify`: whether to follow the edges too, which `atlas` needs.
+  ShrinkingMap(std::shared_ptr<const Surface> surface, bool classify);
 
   const Surface& surface() const { return *surface_; }
   const TriangleComplex& complex() const { return complex_; }
@@ -36,6 +37,7 @@ class ShrinkingMap {
   Transition edge_transition(const Atlas& atlas, const Numbering& numbering, int edge) const;
 
   std::shared_ptr<const Surface> surface_;
+  bool classify_;
   TriangleComplex complex_;
   std::vector<Location> locations_;
   std::vector<std::vector<int>> points_;

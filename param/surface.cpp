@@ -94,6 +94,14 @@ Surface::Surface(Mesh input) : mesh(std::move(input)), halfedges(mesh) {
     }
   }
   vertex_area = voronoi_areas(mesh);
+  for (int f = 0; f < mesh.face_count(); ++f) face_area.push_back(gsp::face_area(mesh, f));
+}
+
+Surface::Surface(Mesh input, std::vector<double> areas) : Surface(std::move(input)) {
+  face_area = std::move(areas);
+  std::fill(vertex_area.begin(), vertex_area.end(), 0.0);
+  for (int f = 0; f < mesh.face_count(); ++f)
+    for (int v : mesh.faces[f]) vertex_area[v] += face_area[f] / 3.0;
 }
 
 std::vector<int> faces_around(const Surface& surface, const std::vector<int>& vertices) {

@@ -15,8 +15,11 @@ struct Surface {
   std::vector<int> edge_of;        ///< #3F half-edge -> edge
   std::vector<int> edge_halfedge;  ///< #E, the edge's half-edge of smaller index: it gives the edge its direction
   std::vector<double> vertex_area; ///< #V area of the Voronoi region (mixed for obtuse faces, Meyer et al. 2003)
+  std::vector<double> face_area;   ///< #F
 
   explicit Surface(Mesh input);
+  /// One that stands for a finer surface: each face for a part of it of the given area, not its own.
+  Surface(Mesh input, std::vector<double> areas);
   Surface(const Surface&) = delete;
   Surface& operator=(const Surface&) = delete;
 

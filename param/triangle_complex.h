@@ -48,6 +48,7 @@ class TriangleComplex {
   bool edge_exists(int a, int b) const;
   /// Component of the surface the vertex belongs to, and how many vertices of the complex it still has.
   int component_vertices(int vertex) const { return component_size_[component_[vertex]]; }
+  bool on_boundary(int vertex) const { return loop_[vertex] >= 0; }
   /// Vertices left on the boundary loop of a boundary vertex.
   int loop_vertices(int vertex) const { return loop_size_[loop_[vertex]]; }
 

@@ -1,11 +1,13 @@
 #include <catch2/catch.hpp>
 #include <memory>
+#include <numeric>
 #include <set>
 
 #include "mesh/shapes.h"
 #include "param/folds.h"
 #include "param/overlay.h"
 #include "param/simplify.h"
+#include "param/smooth_levels.h"
 
 using namespace gsp;
 
@@ -65,17 +67,75 @@ TEST_CASE("the map is free of folds after every removal, whatever the surface") 
     options.base_vertices = c.base_vertices;
     while (true) {
       Progress progress;
-      SimplifyResult made = simplify(surface, options, progress);
-      const Atlas fine = made.overlay.atlas(), coarse = std::move(made.overlay).coarsened().atlas;
+      SimplifyResult made = simplify(surface, options, 1, progress);
+      const Atlas maps = maps_of(made), fine = made.levels.back().atlas();
+      const Atlas coarse = std::move(made.levels.back()).coarsened().atlas;
       check_map_of(fine, c.mesh);
       check_map_of(coarse, c.mesh);
-      CHECK(coarse.base.vertices == made.atlas.base.vertices);
-      CHECK(coarse.base.faces == made.atlas.base.faces);
+      CHECK(coarse.base.vertices == maps.base.vertices);
+      CHECK(coarse.base.faces == maps.base.faces);
       CHECK(coarse.surface->mesh.vertex_count() <= fine.surface->mesh.vertex_count());
       if (4 * options.base_vertices > c.mesh.vertex_count()) break;
       options.base_vertices *= 4;
     }
   }
+}
+
+TEST_CASE("a map onto a complex followed by one of the complex is a map free of folds onto the base of the second") {
+  for (Cut& c : cuts()) {
+    INFO(c.name);
+    split_boundary_chords(c.mesh);
+    for (int ratio : {2, 6}) {
+      INFO(ratio);
+      Progress progress;
+      ParameterizeOptions options;
+      options.base_vertices = std::max(c.base_vertices, c.mesh.vertex_count() / ratio);
+      SimplifyResult first = simplify(std::make_shared<const Surface>(c.mesh), options, 1, progress);
+      const CoarseSurface complex = coarse_surface(first.levels.back());
+      CHECK(std::accumulate(complex.surface->face_area.begin(), complex.surface->face_area.end(), 0.0) ==
+            Approx(surface_area(c.mesh)).epsilon(1e-12));
+      options.base_vertices = c.base_vertices;
+      SimplifyResult second = simplify(complex.surface, options, 1, progress);
+      const RefinedMap coarse = std::move(second.levels.back()).coarsened();
+      const std::optional<RefinedMap> whole = std::move(first.levels.back()).followed_by(coarse);
+      REQUIRE(whole);
+      check_map_of(whole->atlas, c.mesh);
+      CHECK(whole->atlas.base.faces == coarse.atlas.base.faces);
+      // Where the complex has a vertex, the two maps agree.
+      for (std::size_t v = 0; v < complex.vertex.size(); ++v) {
+        const int there = complex.vertex[v];
+        CHECK(whole->atlas.corner[there] == coarse.atlas.corner[v]);
+        if (whole->atlas.patch[there] == coarse.atlas.patch[v])
+          CHECK(std::abs(whole->atlas.position[there] - coarse.atlas.position[v]) < 1e-12);
+      }
+    }
+  }
+}
+
+TEST_CASE("the levels of a simplification together make the same base as their removals") {
+  Mesh mesh = shapes::sphere(5);
+  for (std::size_t v = 0; v < mesh.positions.size(); v += 5) mesh.positions[v] *= 1.0 + 0.01 * double(v % 7);
+  const auto surface = std::make_shared<const Surface>(mesh);
+  ParameterizeOptions options;
+  options.base_vertices = 20;
+  Progress progress;
+  SimplifyResult made = simplify(surface, options, 3, progress);
+  REQUIRE(made.levels.size() == 2);
+  CHECK(remaining_vertices(*surface, made.removals).size() == 20);
+  const Atlas maps = maps_of(made);
+  const std::optional<SmoothedMap> smooth = smooth_levels(std::move(made), options, progress);
+  REQUIRE(smooth);
+  check_map_of(smooth->atlas, mesh);
+  // Each triangle from its least vertex on, in the surface's numbers.
+  const auto triangles = [](const BaseComplex& base) {
+    std::set<Triangle> all;
+    for (Triangle t : base.faces) {
+      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+      all.insert(t);
+    }
+    return all;
+  };
+  CHECK(triangles(smooth->atlas.base) == triangles(maps.base));
 }
 
 TEST_CASE("a face cut to pieces comes back whole when the cuts are drawn together") {

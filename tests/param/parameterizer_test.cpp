@@ -25,10 +25,10 @@ SimplifyResult simplification(Mesh mesh, int base_vertices) {
   ParameterizeOptions options;
   options.base_vertices = base_vertices;
   Progress progress;
-  return simplify(std::make_shared<const Surface>(std::move(mesh)), options, progress);
+  return simplify(std::make_shared<const Surface>(std::move(mesh)), options, 1, progress);
 }
 
-Atlas simplified(Mesh mesh, int base_vertices) { return simplification(std::move(mesh), base_vertices).atlas; }
+Atlas simplified(Mesh mesh, int base_vertices) { return maps_of(simplification(std::move(mesh), base_vertices)); }
 
 /// The global solution, its folds and all.
 void solve(Atlas& atlas, const LinearWeights& weights) {
@@ -136,7 +136,7 @@ TEST_CASE("every step from the injective map on is free of folds, and lowering t
     INFO(c.name);
     SimplifyResult made = simplification(c.mesh, c.base_vertices);
     Progress progress;
-    Atlas atlas = std::move(made.overlay).coarsened().atlas;
+    Atlas atlas = std::move(made.levels.back()).coarsened().atlas;
     REQUIRE(find_folds(atlas).none());
     CHECK(atlas.broken_faces() == 0);
     CHECK(std::abs(area_excess(atlas)) < 1e-10);
@@ -159,14 +159,14 @@ TEST_CASE("every step from the injective map on is free of folds, and lowering t
 TEST_CASE("the distortion energy is bounded below by that of isometries, and its gradient is its slope") {
   SimplifyResult made = simplification(shapes::sphere(3), 12);
   Progress progress;
-  const Atlas flat = std::move(made.overlay).coarsened().atlas;
+  const Atlas flat = std::move(made.levels.back()).coarsened().atlas;
   REQUIRE(find_folds(flat).none());
   std::vector<int> vertices, faces;
   const std::vector<char> interior = interior_vertices(flat);
   for (int v = 0; v < flat.surface->mesh.vertex_count(); ++v)
     if (interior[v]) vertices.push_back(v);
   for (int f = 0; f < flat.surface->mesh.face_count(); ++f) faces.push_back(f);
-  const DistortionEnergy energy(flat, vertices, faces, 0.7);
+  const DistortionEnergy energy(flat, vertices, faces, reference_shapes(flat, faces), 0.7);
   std::vector<double> x = energy.positions(flat), gradient(x.size()), other(x.size());
   for (double epsilon : {0.0, 0.3}) {
     const double here = energy.evaluate(x.data(), gradient.data(), epsilon);
@@ -185,15 +185,14 @@ TEST_CASE("the distortion energy is bounded below by that of isometries, and its
 
 TEST_CASE("beside its least the distortion energy curves as its convex Hessian says, and no further step folds a face") {
   Mesh disc = shapes::sector_disc(6, 3);
-  const SimplifyResult made = simplification(disc, 7);
-  Atlas atlas = made.atlas;
+  Atlas atlas = simplified(disc, 7);
   // The disc of six equilateral sectors on its six charts, which is an isometry up to scale.
   for (int i = 0; i < 3; ++i) solve(atlas, LinearWeights(*atlas.surface, Weights::MeanValue));
   std::vector<int> vertices, faces;
   for (int v = 0; v < disc.vertex_count(); ++v)
     if (atlas.is_free(v)) vertices.push_back(v);
   for (int f = 0; f < disc.face_count(); ++f) faces.push_back(f);
-  const DistortionEnergy energy(atlas, vertices, faces, 0.7);
+  const DistortionEnergy energy(atlas, vertices, faces, reference_shapes(atlas, faces), 0.7);
   const std::vector<double> x = energy.positions(atlas);
   std::vector<double> direction(x.size()), gradient(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) direction[i] = std::sin(1.7 * double(i));

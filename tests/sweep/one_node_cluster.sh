@@ -5,10 +5,16 @@ set -euo pipefail
 
 folder=$(realpath -m "$2")
 
+# Daemons save their state on the way out, so the folder is not theirs any more only once they are gone.
 stop() {
-  local name
+  local name pid try
   for name in slurmd slurmctld munged; do
-    [ -f "$folder/$name.pid" ] && kill "$(cat "$folder/$name.pid")" 2>/dev/null || true
+    pid=$(cat "$folder/$name.pid" 2>/dev/null) || continue
+    kill "$pid" 2>/dev/null || true
+    for try in $(seq 100); do
+      kill -0 "$pid" 2>/dev/null || break
+      sleep 0.1
+    done
   done
 }
 

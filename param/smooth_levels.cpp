@@ -1,0 +1,72 @@
+#include "param/smooth_levels.h"
+
+#include "param/best_map.h"
+#include "param/descend_corners.h"
+#include "param/lower_distortion.h"
+#include "param/relax_corners.h"
+#include "param/weights.h"
+
+namespace gsp {
+
+namespace {
+
+constexpr double kRoughly = 2e-3, kFinely = 1e-4;  // gain of a step that ends lowering the distortion, between and after relaxations
+constexpr int kSweeps = 2;
+
+int relax_or_descend(Atlas& atlas, const ParameterizeOptions& options) {
+  if (options.corners == Corners::Gradient)
+    return descend_corners(atlas, Objective::Distortion, kRelaxationRadius, Folding::Refused);
+  return relax_corners(atlas, LinearWeights(*atlas.surface, options.weights), kRelaxationRadius, Folding::Refused);
+}
+
+/// The whole map at once. Returns how many relaxations were kept.
+int smooth_coarsest(RefinedMap& map, const ParameterizeOptions& options, bool finest, Progress& progress) {
+  lower_distortion(map.atlas, kRoughly, progress);
+  // Where the map has become smooth it needs fewer added vertices.
+  map = coarsen(std::move(map));
+  map.atlas.reassign_all();
+  BestMap best;
+  best.offer(map.atlas, 0);
+  for (int round = 1; round <= options.relaxations; ++round) {
+    if (relax_or_descend(map.atlas, options) == 0) break;
+    lower_distortion(map.atlas, kRoughly, progress);
+    best.offer(map.atlas, round);
+  }
+  map.atlas = best.atlas();
+  if (finest) lower_distortion(map.atlas, kFinely, progress);
+  return best.round();
+}
+
+/// A map that a coarser level has made smooth on the large.
+void smooth_finer(RefinedMap& map, const ParameterizeOptions& options, Progress& progress) {
+  map.atlas.reassign_all();
+  lower_distortion_locally(map.atlas, kSweeps, progress);
+  map = coarsen(std::move(map));
+  map.atlas.reassign_all();
+  if (options.relaxations == 0) return;
+  BestMap best;
+  best.offer(map.atlas, 0);
+  relax_or_descend(map.atlas, options);
+  lower_distortion_locally(map.atlas, kSweeps, progress);
+  best.offer(map.atlas, 1);
+  map.atlas = best.atlas();
+}
+
+}  // namespace
+
+std::optional<SmoothedMap> smooth_levels(SimplifyResult simplified, const ParameterizeOptions& options,
+                                         Progress& progress) {
+  std::vector<OverlayMap>& levels = simplified.levels;
+  RefinedMap map = std::move(levels.back()).coarsened();
+  map.atlas.reassign_all();
+  const int kept = smooth_coarsest(map, options, levels.size() == 1, progress);
+  for (levels.pop_back(); !levels.empty(); levels.pop_back()) {
+    std::optional<RefinedMap> finer = std::move(levels.back()).followed_by(map);
+    if (!finer) return std::nullopt;
+    map = std::move(*finer);
+    smooth_finer(map, options, progress);
+  }
+  return SmoothedMap{std::move(map.atlas), kept};
+}
+
+}  // namespace gsp
