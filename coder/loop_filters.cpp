@@ -1,5 +1,6 @@
 #include "coder/loop_filters.h"
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -13,9 +14,9 @@ double kept_weight(int valence) {
   return 3.0 / 8.0 + c * c;
 }
 
-class LowPass : public Filter {
+class LowPass : public TapFilter<LowPass> {
  public:
-  explicit LowPass(const SubdivisionLevel& coarse) : Filter(coarse), fans_(vertex_fans(coarse)) {
+  explicit LowPass(const SubdivisionLevel& coarse) : TapFilter(coarse), fans_(vertex_fans(coarse)) {
     kept_.reserve(fans_.size());
     for (const VertexFan& fan : fans_) {
       const bool inside = fan.boundary_count == 0 && fan.valence > 0;
@@ -23,59 +24,67 @@ class LowPass : public Filter {
     }
   }
 
-  void vertex_taps(int v, std::vector<Tap>& out) const override { out.push_back({v, v, kept_[v]}); }
+  template <class Take>
+  void for_each_tap(Take take) const {
+    for (int v = 0; v < level_.vertex_count; ++v) take(v, v, kept_[v]);
+    for (int e = 0; e < level_.edge_count(); ++e) edge_taps(e, take);
+  }
 
-  void edge_taps(int e, std::vector<Tap>& out) const override {
+ private:
+  template <class Take>
+  void edge_taps(int e, Take take) const {
     const auto [a, b] = level_.edges[e];
     const auto [left, right] = level_.edge_faces[e];
     const bool boundary = right < 0;
     for (const auto& [v, other] : {std::pair{a, b}, std::pair{b, a}}) {
-      if (fans_[v].boundary_count == 0) out.push_back({v, other, (1.0 - kept_[v]) / fans_[v].valence});
-      if (fans_[v].boundary_count == 2 && boundary) out.push_back({v, other, 0.125});
+      if (fans_[v].boundary_count == 0) take(v, other, (1.0 - kept_[v]) / fans_[v].valence);
+      if (fans_[v].boundary_count == 2 && boundary) take(v, other, 0.125);
     }
-    for (int v : {a, b}) out.push_back({odd(e), v, boundary ? 0.5 : 0.375});
+    for (int v : {a, b}) take(odd(e), v, boundary ? 0.5 : 0.375);
     if (boundary) return;
-    for (int face : {left, right}) out.push_back({odd(e), level_.opposite_vertex(face, e), 0.125});
+    for (int face : {left, right}) take(odd(e), level_.opposite_vertex(face, e), 0.125);
   }
 
- private:
   std::vector<VertexFan> fans_;
   std::vector<double> kept_;
 };
 
-class HighPass : public Filter {
+class HighPass : public TapFilter<HighPass> {
  public:
   HighPass(const SubdivisionLevel& coarse, bool mirror_symmetric)
-      : Filter(coarse), mirror_symmetric_(mirror_symmetric), fans_(vertex_fans(coarse)) {}
+      : TapFilter(coarse), mirror_symmetric_(mirror_symmetric), fans_(vertex_fans(coarse)) {}
 
-  void vertex_taps(int, std::vector<Tap>&) const override {}
-
-  void edge_taps(int e, std::vector<Tap>& out) const override {
-    Column column{e, out, out.size()};
-    if (level_.edge_faces[e][1] < 0) {
-      boundary_taps(column);
-      balance(column);
-    } else {
-      column.distinct = distinct(e);
-      interior_taps(column);
+  template <class Take>
+  void for_each_tap(Take take) const {
+    for (int e = 0; e < level_.edge_count(); ++e) {
+      Column column{e, level_.edge_faces[e][1] >= 0 && distinct(e)};
+      if (level_.edge_faces[e][1] < 0)
+        boundary_taps(column);
+      else
+        interior_taps(column);
       if (!column.distinct) balance(column);
+      for (int i = 0; i < column.size; ++i) take(column.taps[i].to, e, column.taps[i].weight);
     }
   }
 
  private:
-  /// The taps of one edge, which start at `first`.
+  /// The taps of one edge.
   struct Column {
+    struct Tap {
+      int to;
+      double weight;
+    };
     int edge;
-    std::vector<Tap>& taps;
-    std::size_t first;
-    bool distinct = false;  ///< no vertex is reached twice
+    bool distinct;  ///< no vertex is reached twice
+    int size = 0;
+    std::array<Tap, 19> taps;
 
     void add(int vertex, double weight) {
       // A vertex that is reached twice, around a valence below 6, keeps its first and nearer tap.
       if (!distinct)
-        for (std::size_t i = first; i < taps.size(); ++i)
+        for (int i = 0; i < size; ++i)
           if (taps[i].to == vertex) return;
-      taps.push_back({vertex, edge, weight});
+      taps[size++] = {vertex, weight};
     }
   };
 
@@ -166,14 +175,15 @@ class HighPass : public Filter {
   }
 
   void balance(Column& column) const {
-    const auto begin = column.taps.begin() + static_cast<std::ptrdiff_t>(column.first);
     double sum = 0.0, even = 0.0;
-    for (auto tap = begin; tap != column.taps.end(); ++tap) {
-      sum += tap->weight;
-      if (tap->to < level_.vertex_count) even += tap->weight;
+    for (int i = 0; i < column.size; ++i) {
+      sum += column.taps[i].weight;
+      if (column.taps[i].to < level_.vertex_count) even += column.taps[i].weight;
     }
-    for (auto tap = begin; tap != column.taps.end(); ++tap)
-      if (tap->to < level_.vertex_count) tap->weight -= sum * tap->weight / even;
+    for (int i = 0; i < column.size; ++i) {
+      Column::Tap& tap = column.taps[i];
+      if (tap.to < level_.vertex_count) tap.weight -= sum * tap.weight / even;
+    }
   }
 
   bool mirror_symmetric_;

@@ -62,8 +62,8 @@ class Synthesis {
  public:
   Synthesis(const Filter& low_pass, const Filter& high_pass) {
     const int vertices = low_pass.level().vertex_count, edges = low_pass.level().edge_count();
-    low_pass_ = matrix_of(low_pass, vertices + edges, vertices);
-    high_pass_ = matrix_of(high_pass, vertices + edges, edges);
+    low_pass_ = low_pass.matrix(vertices + edges, vertices);
+    high_pass_ = high_pass.matrix(vertices + edges, edges);
   }
 
   Points operator()(const Points& both) const {
@@ -110,13 +110,13 @@ std::vector<Vec3> WaveletTransform::synthesis(int level, std::vector<Vec3> coars
   const Step& step = steps_[level];
   if (step.update) {
     Points update(coarse.size(), Vec3::Zero());
-    add_filtered(*step.update, details.data(), update.data());
+    step.update->add(details.data(), update.data());
     for (std::size_t v = 0; v < coarse.size(); ++v) coarse[v] -= update[v];
   }
   Points fine(coarse.size() + details.size(), Vec3::Zero());
-  add_filtered(*step.low_pass, coarse.data(), fine.data());
+  step.low_pass->add(coarse.data(), fine.data());
   if (step.high_pass)
-    add_filtered(*step.high_pass, details.data(), fine.data());
+    step.high_pass->add(details.data(), fine.data());
   else
     for (std::size_t e = 0; e < details.size(); ++e) fine[coarse.size() + e] += details[e];
   return fine;
@@ -128,9 +128,9 @@ WaveletTransform::Split WaveletTransform::interpolating_analysis(int level, cons
   const auto middle = fine.begin() + static_cast<std::ptrdiff_t>(coarse_count);
   Split split{{fine.begin(), middle}, {middle, fine.end()}};
   Points predicted(fine.size(), Vec3::Zero());
-  add_filtered(*step.low_pass, split.coarse.data(), predicted.data());
+  step.low_pass->add(split.coarse.data(), predicted.data());
   for (std::size_t e = 0; e < split.details.size(); ++e) split.details[e] -= predicted[coarse_count + e];
-  if (step.update) add_filtered(*step.update, split.details.data(), split.coarse.data());
+  if (step.update) step.update->add(split.details.data(), split.coarse.data());
   return split;
 }
 

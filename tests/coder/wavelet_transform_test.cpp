@@ -19,11 +19,11 @@ std::vector<SubdivisionLevel> levels_of(const Mesh& base, int level) {
 /// From the vertices of a level to those of the next, and from its edges.
 SparseMatrix low_pass_matrix(const Filter& filter) {
   const int vertices = filter.level().vertex_count;
-  return matrix_of(filter, vertices + filter.level().edge_count(), vertices);
+  return filter.matrix(vertices + filter.level().edge_count(), vertices);
 }
 SparseMatrix high_pass_matrix(const Filter& filter) {
   const int edges = filter.level().edge_count();
-  return matrix_of(filter, filter.level().vertex_count + edges, edges);
+  return filter.matrix(filter.level().vertex_count + edges, edges);
 }
 
 /// Two cones over a ring of k vertices: closed, with two vertices of valence k and k of valence 4.
