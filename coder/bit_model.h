@@ -36,17 +36,17 @@ struct AdaptiveBit {
 
   /// `memory`: bits after which the context starts to forget, at most kMostMemory.
   void update(bool bit, int memory) {
-    const int target = bit ? 65535 : 0;
-    const int step = static_cast<int>((static_cast<std::int64_t>(target - set) * kShares[seen]) >> 16);
-    set = static_cast<std::uint16_t>(std::clamp(set + step, 32, 65535 - 32));
+    const int target = bit ? 65535 - kLeast : kLeast;
+    set += static_cast<std::uint16_t>((target - set) * kShares[seen] >> 15);
     seen += seen < memory;
   }
 
  private:
-  /// 65536 / (n + 1.5): the step that keeps a running mean.
+  static constexpr int kLeast = 32;  ///< no bit is surer than this in 1/65536
+  /// 32768 / (n + 1.5): the step that keeps a running mean.
   static constexpr auto kShares = [] {
     std::array<std::int32_t, kMostMemory + 1> shares{};
-    for (int n = 0; n <= kMostMemory; ++n) shares[n] = 2 * 65536 / (2 * n + 3);
+    for (int n = 0; n <= kMostMemory; ++n) shares[n] = (2 * 65536 / (2 * n + 3) + 1) / 2;
     return shares;
   }();
 };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "coder/bit_model.h"
+#include "coder/due_list.h"
 #include "coder/range_coder.h"
 
 namespace gsp {
@@ -50,13 +51,17 @@ class DecodingSide {
   RangeDecoder coder_;
 };
 
-/// Octave of a magnitude in quarters of the plane's threshold: 0, 1, 2-3, 4-7, ...
-int octave(std::uint64_t quarters, int classes) { return std::min<int>(std::bit_width(quarters), classes - 1); }
+/// Octave of a magnitude < 2^62 in quarters of the plane's threshold: 0, 1, 2-3, 4-7, ...
+int octave(std::uint64_t magnitude, int plane, int classes) {
+  return std::clamp(static_cast<int>(std::bit_width(4 * magnitude)) - plane, 0, classes - 1);
+}
 
 /// Half octaves: 0, 1, 2, 3, 4-5, 6-7, 8-11, ...
-int half_octave(std::uint64_t quarters, int classes) {
-  const int width = std::bit_width(quarters);
-  return std::min(width < 2 ? width : 2 * width - 2 + static_cast<int>(quarters >> (width - 2) & 1), classes - 1);
+int half_octave(std::uint64_t magnitude, int plane, int classes) {
+  const int bits = static_cast<int>(std::bit_width(4 * magnitude)), width = bits - plane;
+  if (width < 2) return std::max(width, 0);
+  const int second = static_cast<int>(4 * magnitude >> (bits - 2) & 1);
+  return std::min(2 * width - 2 + second, classes - 1);
 }
 
 /// Index of a tuple of values into a table of the given extents, and the size of that table.
@@ -84,11 +89,11 @@ class BitplaneCoder {
       known_.details[c].magnitude.assign(nodes, 0);
       known_.details[c].negative.assign(nodes, 0);
       known_.details[c].low_plane.assign(nodes, planes);
-      ring_[c].assign(nodes, 0);
+      ring_[c].assign(nodes + 1, 0);
       children_[c].assign(nodes, 0);
       tree_low_plane_[c].assign(nodes, planes);
-      bit_due_[c].assign(nodes + kBlock, kNever);
-      tree_due_[c].assign(nodes + kBlock, kNever);
+      bit_due_.emplace_back(nodes);
+      tree_due_.emplace_back(nodes);
     }
     if (actual) find_largest_descendants();
   }
@@ -99,22 +104,23 @@ class BitplaneCoder {
       if (pass == top || (pass >= kLastUrgency && pass % (kPlanesPerUrgency * kPassesPerPlane) == 0)) renew_urgency();
       const int base_plane = (pass + kBaseDelay + kPassesPerPlane - 1) / kPassesPerPlane;
       if ((pass + kBaseDelay) % kPassesPerPlane == 0 && base_plane < layout_.base_planes) base_pass(base_plane);
-      for (int level = 0; level < forest_.levels(); ++level)
+      const Due now = static_cast<Due>(pass);
+      for (int level = 0; level < forest_.levels(); ++level) {
+        const int begin = forest_.level_begin[level], end = forest_.level_begin[level + 1];
         for (int c = 0; c < 3; ++c) {
-          for_each_due(bit_due_[c], level, pass, [&](int n) { code_bits(pass, level, c, n); });
+          bit_due_[c].for_each_due(begin, end, now, [&](int n) { code_bits(now, level, c, n); });
           if (level + 1 < layout_.levels)
-            for_each_due(tree_due_[c], level, pass, [&](int n) { code_trees(pass, level, c, n); });
+            tree_due_[c].for_each_due(begin, end, now, [&](int n) { code_trees(now, level, c, n); });
         }
+      }
     }
   }
 
   BitplaneCoefficients take() { return std::move(known_); }
 
  private:
-  /// The pass in which something is to be coded; passes end above it.
-  using Due = std::uint8_t;
-  static constexpr Due kNever = 0;
-  static constexpr int kBlock = 32;  ///< nodes that are looked through at once
+  using Due = DueList::Pass;
+  static constexpr Due kNever = DueList::kNever;
   static_assert(kMaxUrgency > kNever && kPassesPerPlane * 31 + kMaxUrgency < 256);
 
   static int bit_of(int flags, int c) { return flags >> c & 1; }
@@ -149,35 +155,13 @@ class BitplaneCoder {
         const double x = (mean - known_.base[v][k] - unit) / unit;
         const int place = static_cast<int>(std::clamp(std::floor(x * 4.0), -8.0, 7.0)) + 8;
         const int fine_place = static_cast<int>(std::clamp(std::floor(x * 12.0), -16.0, 15.0)) + 16;
-        const int width = octave(static_cast<std::uint64_t>(4.0 * spread / unit), 8);
+        const int width = octave(static_cast<std::uint64_t>(4.0 * spread / unit), 2, 8);
         const bool actual = actual_ && (actual_->base[v][k] >> plane & 1);
         const bool bit =
             base_model_.decide(side_, actual, {place, place * 8 + width, fine_place, place / 2 * 32 + plane}, 0);
         known_.base[v][k] |= static_cast<std::uint32_t>(bit) << plane;
         known_.base_low_plane[v][k] = plane;
       }
-    }
-  }
-
-  /// Visits a level's nodes whose time has come, in order. Most have nothing to say in a pass, so they are looked
-  /// through in blocks; what falls due inside a block that has been begun waits for the next pass.
-  template <class Visit>
-  void for_each_due(const std::vector<Due>& due, int level, int pass, Visit visit) {
-    static constexpr auto kFlags = [] {
-      std::array<std::uint32_t, kBlock> flags{};
-      for (int i = 0; i < kBlock; ++i) flags[i] = 1u << i;
-      return flags;
-    }();
-    const int end = forest_.level_begin[level + 1];
-    for (int begin = forest_.level_begin[level]; begin < end; begin += kBlock) {
-      const Due* const block = due.data() + begin;
-      Due latest = kNever;
-      for (int i = 0; i < kBlock; ++i) latest = std::max(latest, block[i]);
-      if (latest < pass) continue;
-      std::uint32_t now = 0;
-      for (int i = 0; i < kBlock; ++i) now |= block[i] >= pass ? kFlags[i] : 0;
-      if (end - begin < kBlock) now &= (1u << (end - begin)) - 1;
-      for (; now != 0; now &= now - 1) visit(begin + std::countr_zero(now));
     }
   }
 
@@ -199,10 +183,10 @@ class BitplaneCoder {
     return static_cast<Due>(std::max<int>(kNever, kPassesPerPlane * (planes - 1) + urgency_[c][n] - delay));
   }
 
-  void schedule_bit(int c, int n) { bit_due_[c][n] = due(c, n, known_.details[c].low_plane[n], delay(c, n)); }
+  void schedule_bit(int c, int n) { bit_due_[c].set(n, due(c, n, known_.details[c].low_plane[n], delay(c, n))); }
 
   void schedule_tree(int c, int n) {
-    tree_due_[c][n] = bit_of(open_[n], c) ? kNever : due(c, n, tree_low_plane_[c][n], kTreeDelay);
+    tree_due_[c].set(n, bit_of(open_[n], c) ? kNever : due(c, n, tree_low_plane_[c][n], kTreeDelay));
   }
 
   void schedule(int c, int n) {
@@ -219,9 +203,10 @@ class BitplaneCoder {
     return quiet ? kQuietDelay : 0;
   }
 
-  void code_bits(int pass, int level, int c, int n) {
+  void code_bits(Due pass, int level, int c, int n) {
     auto& known = known_.details[c];
-    while (bit_due_[c][n] >= pass) {
+    Due due = bit_due_[c][n];
+    while (due >= pass) {
       const int plane = known.low_plane[n] - 1;
       known.low_plane[n] = static_cast<std::uint8_t>(plane);
       if (known.magnitude[n] != 0) {
@@ -229,14 +214,15 @@ class BitplaneCoder {
       } else if (find_significant(plane, level, c, n)) {
         schedule_bit(c, n);
         tell_of_significance(level, c, n);
+        due = bit_due_[c][n];
         continue;
       }
-      Due& due = bit_due_[c][n];
       due = plane == 0 ? kNever : static_cast<Due>(std::max<int>(kNever, due - kPassesPerPlane));
     }
+    bit_due_[c].set(n, due);
   }
 
-  void code_trees(int pass, int level, int c, int n) {
+  void code_trees(Due pass, int level, int c, int n) {
     while (tree_due_[c][n] >= pass) {
       const int plane = tree_low_plane_[c][n] - 1;
       if (find_descendants(plane, level, c, n)) return open(level, c, n);
@@ -265,7 +251,7 @@ class BitplaneCoder {
     // What follows would speak of a level below the forest.
     if (level + 1 == forest_.levels()) throw StreamEnd{};
     open_[n] |= 1 << c;
-    tree_due_[c][n] = kNever;
+    tree_due_[c].set(n, kNever);
     const std::uint8_t empty_from = tree_low_plane_[c][n];
     for (int child : forest_.children[n]) {
       if (child < 0) continue;
@@ -275,35 +261,33 @@ class BitplaneCoder {
     }
   }
 
-  static std::uint64_t quarters(std::uint64_t magnitude, int plane) { return (magnitude << 2) >> plane; }
+  std::uint32_t ring(int c, int n) const { return ring_[c][n + 1]; }
 
-  std::uint64_t parent_magnitude(int plane, int c, int n) const {
+  std::uint32_t parent_magnitude(int c, int n) const {
     const int parent = forest_.parent[n];
-    return parent < 0 ? 0 : quarters(known_.details[c].magnitude[parent], plane);
+    return parent < 0 ? 0 : known_.details[c].magnitude[parent];
   }
 
   void set_bit(int plane, int c, int n) {
     const std::uint32_t bit = 1u << plane;
     known_.details[c].magnitude[n] |= bit;
     for (int w : forest_.neighbours[n])
-      if (w >= 0) ring_[c][w] += bit;
+      if (w >= 0) ring_[c][w + 1] += bit;
     if (forest_.parent[n] >= 0) children_[c][forest_.parent[n]] += bit;
   }
 
   bool find_significant(int plane, int level, int c, int n) {
     const int tangential = c != 0, o = c == 0 ? 1 : 0, q = 3 - c - o;
-    const std::uint64_t above = parent_magnitude(plane, c, n);
     std::uint64_t rings = 0;
-    for (int w : forest_.neighbours[n])
-      if (w >= 0) rings += ring_[c][w];
-    const std::uint64_t around = quarters(ring_[c][n], plane);
-    const std::uint64_t wide = 2 * around + above + quarters(rings, plane);
-    const std::uint64_t others_here =
-        quarters(std::uint64_t{known_.details[o].magnitude[n]} + known_.details[q].magnitude[n], plane);
-    const std::uint64_t others_around = quarters(std::uint64_t{ring_[o][n]} + ring_[q][n], plane);
-    const std::uint64_t children = quarters(children_[c][n], plane);
-    const int w = octave(wide, 10), cross = octave(2 * others_here + others_around, 10);
-    const int fine = half_octave(2 * wide + 2 * around + 4 * children + others_here + others_around / 2, 24);
+    for (int w : forest_.neighbours[n]) rings += ring_[c][w + 1];
+    const std::uint64_t around = ring(c, n);
+    const std::uint64_t wide = 2 * around + parent_magnitude(c, n) + rings;
+    const std::uint64_t others_here = std::uint64_t{known_.details[o].magnitude[n]} + known_.details[q].magnitude[n];
+    const std::uint64_t others_around = std::uint64_t{ring(o, n)} + ring(q, n);
+    const std::uint64_t all =
+        2 * wide + 2 * around + 4 * std::uint64_t{children_[c][n]} + others_here + others_around / 2;
+    const int w = octave(wide, plane, 10), cross = octave(2 * others_here + others_around, plane, 10);
+    const int fine = half_octave(all, plane, 24);
     side_.count_as(&BitplaneParts::Component::significance, c);
     const bool bit = significance_model_.decide(
         side_, actual_ && (actual_->details[c].magnitude[n] >> plane & 1),
@@ -318,8 +302,8 @@ class BitplaneCoder {
   }
 
   void refine(int plane, int c, int n) {
-    const int size = octave(known_.details[c].magnitude[n] >> (plane + 1), 5);
-    const int a = octave(quarters(ring_[c][n], plane), 8), p = octave(parent_magnitude(plane, c, n), 8);
+    const int size = octave(known_.details[c].magnitude[n], plane + 3, 5);
+    const int a = octave(ring(c, n), plane, 8), p = octave(parent_magnitude(c, n), plane, 8);
     side_.count_as(&BitplaneParts::Component::refinement, c);
     const bool bit = refinement_model_.decide(side_, actual_ && (actual_->details[c].magnitude[n] >> plane & 1),
                                               {tuple_index(size, 5, a, 8), tuple_index(size, 5, p, 8)}, 0);
@@ -328,18 +312,17 @@ class BitplaneCoder {
 
   bool find_descendants(int plane, int level, int c, int n) {
     const int tangential = c != 0, o = c == 0 ? 1 : 0, q = 3 - c - o;
-    const int p = octave(parent_magnitude(plane, c, n), 6);
+    const int p = octave(parent_magnitude(c, n), plane, 6);
     int open_neighbours = 0;
     for (int w : forest_.neighbours[n])
       if (w >= 0) open_neighbours += bit_of(open_[w], c);
     const int open_components = bit_of(open_[n], o) + bit_of(open_[n], q);
-    const std::uint64_t others = quarters(
-        std::uint64_t{known_.details[o].magnitude[n]} + known_.details[q].magnitude[n] + ring_[o][n] + ring_[q][n],
-        plane);
+    const std::uint64_t others =
+        std::uint64_t{known_.details[o].magnitude[n]} + known_.details[q].magnitude[n] + ring(o, n) + ring(q, n);
     side_.count_as(&BitplaneParts::Component::trees, c);
     return descendants_model_.decide(
         side_, actual_ && largest_[n][c] >> plane != 0,
-        {tuple_index(tangential, 2, open_neighbours, 5, open_components, 3, octave(others, 4), 4),
+        {tuple_index(tangential, 2, open_neighbours, 5, open_components, 3, octave(others, plane, 4), 4),
          tuple_index(tangential, 2, p, 6, level, kLevels)},
         tangential);
   }
@@ -350,12 +333,12 @@ class BitplaneCoder {
   Side& side_;
   BitplaneCoefficients known_;
   // What contexts are made of: kept up to date when a bit is set, since it is asked for many times as often.
-  std::array<std::vector<std::uint32_t>, 3> ring_;           ///< sum of the magnitudes of the edges beside a node
+  std::array<std::vector<std::uint32_t>, 3> ring_;           ///< 1 + #N, a 0 and sums of magnitudes beside each
   std::array<std::vector<std::uint32_t>, 3> children_;       ///< sum of the children's magnitudes
   std::vector<std::uint8_t> near_;                           ///< bit c: an edge beside it is significant
   std::vector<std::uint8_t> open_;                           ///< bit c: its descendants are coded one by one
   std::array<std::vector<std::uint8_t>, 3> tree_low_plane_;  ///< at and above it, a closed tree is known to be empty
-  std::array<std::vector<Due>, 3> bit_due_, tree_due_;
+  std::vector<DueList> bit_due_, tree_due_;
   std::vector<std::array<std::uint32_t, 3>> largest_;  ///< encoder only: largest magnitudes of all descendants
   std::array<std::vector<std::int8_t>, 3> urgency_;
 

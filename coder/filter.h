@@ -29,8 +29,8 @@ class Filter {
   const SubdivisionLevel& level_;  ///< outlives the filter
 };
 
-/// A filter that is known by its taps: Derived::for_each_tap(take) calls take(to, from, weight) for each, where `weight`
-/// times what is at `from` goes to `to`. Taps with the same ends add up.
+/// A filter that is known by its taps: Derived::for_each_tap(take) calls take(to, from, weight) for each, where
+/// `weight` times what is at `from` goes to `to`. Taps with the same ends add up.
 template <class Derived>
 class TapFilter : public Filter {
  public:

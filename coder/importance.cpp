@@ -1,6 +1,7 @@
 #include "coder/importance.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -33,10 +34,12 @@ double along(const Vec3& f, const Moment& m) {
 std::int8_t urgency_of(double ratio) {
   static_assert(kPassesPerPlane == 4);
   if (!(ratio > 1e-30)) return kMinUrgency;
-  int exponent = 0;
-  const double mantissa = std::frexp(ratio, &exponent);                                 // in [1/2, 1)
-  constexpr double kQuarter = 0.5946035575013605, kThreeQuarters = 0.8408964152537145;  // 2^-3/4, 2^-1/4
-  const int half_octaves = 2 * exponent - (mantissa < kQuarter ? 2 : mantissa < kThreeQuarters ? 1 : 0);
+  const auto bits = std::bit_cast<std::uint64_t>(ratio);
+  const int exponent = static_cast<int>(bits >> 52) - 1023;
+  const std::uint64_t mantissa = bits & ((std::uint64_t{1} << 52) - 1);
+  // Fractions of 2^1/4 and 2^3/4.
+  constexpr std::uint64_t kQuarter = 0x306fe0a31b715, kThreeQuarters = 0xae89f995ad3ad;
+  const int half_octaves = 2 * exponent + (mantissa < kQuarter ? 0 : mantissa < kThreeQuarters ? 1 : 2);
   return static_cast<std::int8_t>(std::clamp(half_octaves, kMinUrgency, kMaxUrgency));
 }
 

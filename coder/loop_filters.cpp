@@ -77,7 +77,7 @@ class HighPass : public TapFilter<HighPass> {
     int edge;
     bool distinct;  ///< no vertex is reached twice
     int size = 0;
-    std::array<Tap, 19> taps;
+    std::array<Tap, 19> taps = {};
 
     void add(int vertex, double weight) {
       // A vertex that is reached twice, around a valence below 6, keeps its first and nearer tap.
