@@ -24,6 +24,7 @@ class EncodingSide {
  public:
   explicit EncodingSide(Bytes& out) : coder_(out) {}
   bool decide(bool actual, Probability set) {
+    set_ = set;
     coder_.encode(actual, set);
     *count_ += costs[(actual ? set : 65536 - set) >> 4];
     return actual;
@@ -33,11 +34,34 @@ class EncodingSide {
   void count_as_base() { count_ = &parts_.base; }
   const BitplaneParts& parts() const { return parts_; }
   void finish() { coder_.finish(); }
+  void note_significance(int, int) {}
+
+ protected:
+  Probability set_ = 0;  ///< of the last decision
 
  private:
   RangeEncoder coder_;
   BitplaneParts parts_;
   double* count_ = &parts_.base;
+};
+
+/// Writes up to a size, and notes what decisions would have cost.
+class PricingSide : public EncodingSide {
+ public:
+  PricingSide(Bytes& out, std::size_t limit, std::size_t nodes) : EncodingSide(out), out_(out), limit_(limit) {
+    for (auto& component : prices) component.assign(nodes, BitplaneState::kNoPrice);
+  }
+  bool decide(bool actual, Probability set) {
+    if (out_.size() >= limit_) throw StreamEnd{};
+    return EncodingSide::decide(actual, set);
+  }
+  void note_significance(int c, int n) { prices[c][n] = costs[set_ >> 4] - costs[(65536 - set_) >> 4] + 1.0f; }
+
+  std::array<std::vector<float>, 3> prices;
+
+ private:
+  const Bytes& out_;
+  std::size_t limit_;
 };
 
 class DecodingSide {
@@ -46,6 +70,7 @@ class DecodingSide {
   bool decide(bool, Probability set) { return coder_.decode(set); }
   void count_as(double BitplaneParts::Component::*, int) {}
   void count_as_base() {}
+  void note_significance(int, int) {}
 
  private:
   RangeDecoder coder_;
@@ -294,6 +319,7 @@ class BitplaneCoder {
         {tuple_index(c, 3, plane, 32, level, kLevels), tuple_index(tangential, 2, fine, 24, level, kLevels),
          tuple_index(c, 3, w, 10, cross, 10)},
         tangential);
+    side_.note_significance(c, n);
     if (!bit) return false;
     side_.count_as(&BitplaneParts::Component::signs, c);
     known_.details[c].negative[n] = side_.decide(actual_ && actual_->details[c].negative[n], 32768);
@@ -361,6 +387,19 @@ BitplaneParts encode_bitplanes(const EdgeForest& forest, const BitplaneLayout& l
   coder.run();
   side.finish();
   return side.parts();
+}
+
+BitplaneState encode_bitplanes_until(const EdgeForest& forest, const BitplaneLayout& layout,
+                                     const BitplaneCoefficients& coefficients, std::size_t bytes) {
+  Bytes out;
+  PricingSide side(out, bytes, forest.nodes());
+  BitplaneCoder<PricingSide> coder(forest, layout, &coefficients, side);
+  try {
+    coder.run();
+  } catch (const StreamEnd&) {
+    // Enough is written.
+  }
+  return {coder.take(), std::move(side.prices)};
 }
 
 BitplaneCoefficients decode_bitplanes(const EdgeForest& forest, const BitplaneLayout& layout, const std::uint8_t* begin,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -58,6 +59,19 @@ struct BitplaneParts {
 /// (kMaxUrgency - urgency) / kPassesPerPlane, so that all end at the same importance. O(nodes) for each plane.
 BitplaneParts encode_bitplanes(const EdgeForest& forest, const BitplaneLayout& layout,
                                const BitplaneCoefficients& coefficients, Bytes& out);
+
+/// Where an embedded stream stands, as its encoder sees it.
+struct BitplaneState {
+  BitplaneCoefficients known;
+  /// #N for each component: bits by which news would have cost more than none, sign included, in the last decision on
+  /// whether the node is significant; kNoPrice where none was coded.
+  std::array<std::vector<float>, 3> news_price;
+  static constexpr float kNoPrice = -1e9f;
+};
+
+/// The state after the first `bytes` of what encode_bitplanes writes, or after all where they are fewer.
+BitplaneState encode_bitplanes_until(const EdgeForest& forest, const BitplaneLayout& layout,
+                                     const BitplaneCoefficients& coefficients, std::size_t bytes);
 
 /// What the bytes [begin, end) determine, up to the first that speaks of a level below the forest. Any bytes are safe.
 BitplaneCoefficients decode_bitplanes(const EdgeForest& forest, const BitplaneLayout& layout, const std::uint8_t* begin,

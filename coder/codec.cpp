@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <string>
 
 #include "coder/bitplane_coder.h"
@@ -12,6 +14,7 @@
 #include "coder/importance.h"
 #include "coder/local_frames.h"
 #include "coder/quantizer.h"
+#include "coder/rate_distortion.h"
 #include "coder/wavelet_transform.h"
 
 namespace gsp {
@@ -77,17 +80,17 @@ std::vector<SubdivisionLevel> detail_levels(const StreamHeader& header, int leve
 
 /// Everything that encoder and decoder derive from the header and the level that they go to.
 struct Structure {
-  const StreamHeader& header;
   WaveletTransform transform;
   const std::vector<SubdivisionLevel>& levels;
   EdgeForest forest;
 
-  Structure(const StreamHeader& h, int level)
-      : header(h), transform(detail_levels(h, level), h.wavelet), levels(transform.levels()), forest(levels) {}
+  Structure(const StreamHeader& header, int level)
+      : transform(detail_levels(header, level), header.wavelet), levels(transform.levels()), forest(levels) {}
 
   /// Positions of `level` from what is known of the coefficients; those of the coarser levels are `visit`ed on the way.
   template <class Visit>
-  std::vector<Vec3> reconstruct(const BitplaneCoefficients& known, int level, Visit visit) const {
+  std::vector<Vec3> reconstruct(const BitplaneCoefficients& known, int level, const StreamHeader& header,
+                                Visit visit) const {
     std::vector<Vec3> positions = dequantize_base(known, header);
     for (int l = 0; l < level; ++l) {
       const std::vector<Frame> frames = edge_frames(levels[l], positions);
@@ -99,7 +102,8 @@ struct Structure {
     return positions;
   }
 
-  BitplaneLayout layout() const {
+  /// Keeps references to this and to `header`.
+  BitplaneLayout layout(const StreamHeader& header) const {
     BitplaneLayout layout;
     layout.base_planes = header.base_planes;
     layout.detail_planes = header.detail_planes;
@@ -109,15 +113,71 @@ struct Structure {
       layout.base_neighbours[a].push_back(b);
       layout.base_neighbours[b].push_back(a);
     }
-    layout.urgency = [this](const BitplaneCoefficients& known) {
+    layout.urgency = [this, &header](const BitplaneCoefficients& known) {
       std::vector<std::vector<Vec3>> positions;
       const int finest = std::min(importance_level(header), finest_significant_level(known, forest) + 2);
-      positions.push_back(reconstruct(known, finest, [&](const std::vector<Vec3>& p) { positions.push_back(p); }));
+      positions.push_back(
+          reconstruct(known, finest, header, [&](const std::vector<Vec3>& p) { positions.push_back(p); }));
       return surface_urgency(levels, forest, positions, header.tangential_ratio);
     };
     return layout;
   }
 };
+
+/// A mesh on its way into a stream.
+struct Source {
+  Bytes connectivity;
+  StreamHeader header;
+  Structure structure;
+  double diagonal;
+  int precision_bits;
+  std::vector<std::vector<Vec3>> positions, details;  ///< of each level that has details, in coded order
+
+  Source(const SemiregularMesh& mesh, const EncodeOptions& options, Progress& progress)
+      : header(header_of(mesh, options, connectivity, progress)),
+        structure(header, header.level),
+        diagonal(bounding_box_diagonal(mesh.mesh())),
+        precision_bits(options.precision_bits),
+        positions(mesh.level + 1),
+        details(mesh.level) {
+    progress.report("wavelet analysis", 0.1);
+    positions[mesh.level] = in_coded_order(mesh, header.base).positions;
+    for (int l = mesh.level - 1; l >= 0; --l) {
+      WaveletTransform::Split split = structure.transform.analysis(l, positions[l + 1]);
+      positions[l] = std::move(split.coarse);
+      details[l] = std::move(split.details);
+      progress.report("wavelet analysis", 0.8 - 0.7 * l / mesh.level);
+    }
+  }
+
+  /// Coefficients as integers, details in the frames of a decoder that sees `seen` on each level.
+  BitplaneCoefficients quantized(const std::vector<std::vector<Vec3>>& seen, StreamHeader& result) const {
+    std::vector<std::vector<Vec3>> local = details;
+    for (std::size_t l = 0; l < local.size(); ++l) {
+      const std::vector<Frame> frames = edge_frames(structure.levels[l], seen[l]);
+      for (std::size_t e = 0; e < frames.size(); ++e) local[l][e] = frames[e].transpose() * local[l][e];
+    }
+    return quantize(positions[0], local, diagonal, precision_bits, result);
+  }
+
+ private:
+  static StreamHeader header_of(const SemiregularMesh& mesh, const EncodeOptions& options, Bytes& connectivity,
+                                Progress& progress) {
+    check(mesh, options);
+    progress.report("connectivity", 0.0);
+    StreamHeader header;
+    header.wavelet = options.wavelet;
+    header.tangential_ratio = options.tangential_ratio;
+    header.level = mesh.level;
+    header.base = encode_connectivity(mesh.base_faces, connectivity);
+    return header;
+  }
+};
+
+/// Squared error, in squared thresholds, that a bit is worth (coder/rate_distortion.h), in the order in which they are
+/// tried. The slope of rate against squared error of coefficients is about 0.15; less is often better, since zeros err
+/// to one side and leave the surface too flat.
+constexpr double kBitWorths[] = {0.05, 0.05, 0.0, 0.1, 0.15, 0.05};
 
 }  // namespace
 
@@ -142,37 +202,51 @@ Wavelet wavelet_of(const std::string& name) {
 }
 
 Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress& progress, StreamParts* parts) {
-  check(mesh, options);
-  progress.report("connectivity", 0.0);
-  StreamHeader header;
-  header.wavelet = options.wavelet;
-  header.tangential_ratio = options.tangential_ratio;
-  header.level = mesh.level;
-  Bytes connectivity;
-  header.base = encode_connectivity(mesh.base_faces, connectivity);
-  const Structure structure(header, header.level);
-
-  progress.report("wavelet analysis", 0.1);
-  std::vector<Vec3> positions = in_coded_order(mesh, header.base).positions;
-  std::vector<std::vector<Vec3>> details(mesh.level);
-  for (int l = mesh.level - 1; l >= 0; --l) {
-    WaveletTransform::Split split = structure.transform.analysis(l, positions);
-    const std::vector<Frame> frames = edge_frames(structure.levels[l], split.coarse);
-    for (std::size_t e = 0; e < frames.size(); ++e) split.details[e] = frames[e].transpose() * split.details[e];
-    details[l] = std::move(split.details);
-    positions = std::move(split.coarse);
-    progress.report("wavelet analysis", 0.8 - 0.7 * l / mesh.level);
-  }
-
+  const Source source(mesh, options, progress);
   progress.report("entropy coding", 0.8);
-  const double diagonal = bounding_box_diagonal(mesh.mesh());
-  const BitplaneCoefficients integers = quantize(positions, details, diagonal, options.precision_bits, header);
-  Bytes bytes = write_header(header, connectivity);
+  StreamHeader header = source.header;
+  const BitplaneCoefficients integers = source.quantized(source.positions, header);
+  Bytes bytes = write_header(header, source.connectivity);
   const std::size_t header_size = bytes.size();
-  const BitplaneParts bits = encode_bitplanes(structure.forest, structure.layout(), integers, bytes);
-  if (parts) *parts = {header_size - connectivity.size(), connectivity.size(), bits};
+  const BitplaneParts bits =
+      encode_bitplanes(source.structure.forest, source.structure.layout(header), integers, bytes);
+  if (parts) *parts = {header_size - source.connectivity.size(), source.connectivity.size(), bits};
   progress.report("entropy coding", 1.0);
   return bytes;
+}
+
+Bytes encode_fixed(const SemiregularMesh& mesh, const EncodeOptions& options, std::size_t bytes, Progress& progress) {
+  const Source source(mesh, options, progress);
+  const SurfaceError error(in_coded_order(mesh, source.header.base).mesh());
+  const EdgeForest& forest = source.structure.forest;
+  StreamHeader header = source.header;
+  BitplaneCoefficients integers = source.quantized(source.positions, header);
+  const std::size_t header_size = write_header(header, source.connectivity).size();
+  if (bytes < header_size)
+    throw Error(Cause::BadOption, "the header alone takes " + std::to_string(header_size) + " bytes");
+  BitplaneCoefficients best;
+  StreamHeader best_header;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t round = 0;; ++round) {
+    progress.report("rate-distortion optimization", 0.8 + 0.2 * round / (std::size(kBitWorths) + 2));
+    const BitplaneState state =
+        encode_bitplanes_until(forest, source.structure.layout(header), integers, bytes - header_size);
+    std::vector<std::vector<Vec3>> seen;
+    const std::vector<Vec3> decoded =
+        source.structure.reconstruct(state.known, header.level, header, [&](const auto& p) { seen.push_back(p); });
+    if (const double here = error.of(decoded); round == 0 || here < least) {
+      least = here;
+      best = integers;
+      best_header = header;
+    }
+    if (round == std::size(kBitWorths)) break;
+    integers = rate_distortion_choice(source.quantized(seen, header), state, kBitWorths[round]);
+  }
+  Bytes stream = write_header(best_header, source.connectivity);
+  encode_bitplanes(forest, source.structure.layout(best_header), best, stream);
+  if (stream.size() > bytes) stream.resize(bytes);
+  progress.report("rate-distortion optimization", 1.0);
+  return stream;
 }
 
 std::size_t header_bytes(const Bytes& stream) { return header_size(stream.data(), stream.data() + stream.size()); }
@@ -190,10 +264,10 @@ SemiregularMesh decode(const Bytes& stream, std::size_t budget) {
   mesh.level = finest_level(header, std::max(kFreeFaces, affordable));
   const Structure structure(header, mesh.level);
   const BitplaneCoefficients known =
-      decode_bitplanes(structure.forest, structure.layout(), begin + needed, begin + end);
+      decode_bitplanes(structure.forest, structure.layout(header), begin + needed, begin + end);
   mesh.base_vertices = header.base.vertices;
   mesh.base_faces = header.base.faces;
-  mesh.positions = structure.reconstruct(known, mesh.level, [](const std::vector<Vec3>&) {});
+  mesh.positions = structure.reconstruct(known, mesh.level, header, [](const std::vector<Vec3>&) {});
   return mesh;
 }
 

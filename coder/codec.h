@@ -48,6 +48,14 @@ struct StreamParts {
 Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress& progress,
              StreamParts* parts = nullptr);
 
+/// Codes a semi-regular mesh for one size: as `encode`, and at most `bytes` long, but integers are chosen for a decoder
+/// that stops there: in the frames that it will have, and significant where that is worth its bits
+/// (coder/rate_distortion.h). Several choices are tried, that of the embedded stream among them, and the one that moves
+/// the surface least along its normals is taken. Its prefixes decode too, to less than those of the embedded stream.
+/// About ten times the time of `encode`. Throws what `encode` throws, and Error(BadOption) where `bytes` does not hold
+/// the header.
+Bytes encode_fixed(const SemiregularMesh& mesh, const EncodeOptions& options, std::size_t bytes, Progress& progress);
+
 /// Number of bytes that a prefix needs at least. Throws Error(BadStream).
 std::size_t header_bytes(const Bytes& stream);
 

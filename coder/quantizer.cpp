@@ -110,10 +110,6 @@ std::vector<Vec3> dequantize_base(const BitplaneCoefficients& integers, const St
 
 std::vector<Vec3> dequantize_details(const BitplaneCoefficients& integers, const EdgeForest& forest, int level,
                                      const StreamHeader& header) {
-  // Small magnitudes are likelier inside each interval, most of all the lowest; yet details that are still zero, and
-  // the chords of the finest triangles, leave the surface too flat, which larger values make up for. Found by
-  // measurement.
-  constexpr double kFirstCentroid = 0.47, kCentroid = 0.55;
   const double step = detail_step(header, level);
   const int begin = forest.level_begin[level];
   std::vector<Vec3> details(forest.level_begin[level + 1] - begin, Vec3::Zero());

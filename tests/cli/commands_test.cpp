@@ -107,9 +107,8 @@ TEST_CASE("the chain of commands: surface, map, remesh, stream, prefix, distance
   const std::string mesh = write_bumpy(folder), map = folder.file("map.param.ply"), remeshed = folder.file("r.sr.ply"),
                     stream = folder.file("c.pgc"), decoded = folder.file("d.sr.ply"), omega = folder.file("omega.csv");
 
-  const Ran made =
-      gsp_run({"parameterize", mesh, "-o", map, "--base-vertices", "40", "--omega-csv", omega, "--omega-plot",
-               folder.file("cost.png"), "--check", "--json"});
+  const Ran made = gsp_run({"parameterize", mesh, "-o", map, "--base-vertices", "40", "--omega-csv", omega,
+                            "--omega-plot", folder.file("cost.png"), "--check", "--json"});
   CAPTURE(made.err);
   REQUIRE(made.status == 0);
   const json report = json::parse(made.out);
@@ -159,6 +158,10 @@ TEST_CASE("the chain of commands: surface, map, remesh, stream, prefix, distance
     REQUIRE(gsp_run({"encode", remeshed, "-o", cut, "--bytes", "1500"}).status == 0);
     CHECK(size_of(cut) == 1500);
     REQUIRE(gsp_run({"encode", remeshed, "-o", cut, "--psnr", "55"}).status == 0);
+    const std::string fixed = folder.file("fixed.pgc");
+    REQUIRE(gsp_run({"encode", remeshed, "-o", fixed, "--mode", "fixed", "--psnr", "55"}).status == 0);
+    CHECK(size_of(fixed) < 1.1 * size_of(cut));
+    CHECK(gsp_run({"encode", remeshed, "-o", fixed, "--mode", "fixed"}).status == 2);
     CHECK(size_of(cut) < size_of(stream) / 2);
     REQUIRE(gsp_run({"decode", cut, "-o", decoded}).status == 0);
     const Ran ran = gsp_run({"distance", remeshed, decoded, "--json"});
@@ -179,8 +182,20 @@ TEST_CASE("distance says everything it is asked for, in the same bytes for one a
   const TemporaryFolder folder;
   const std::string a = write_bumpy(folder), b = folder.file("plane.ply");
   write_mesh(b, shapes::sphere(3));
-  std::vector<std::string> args = {"distance", a, b, "--samples", "20000", "--hausdorff-tolerance", "0.01", "--metro",
-                                   "--mpeg", "--per-vertex", folder.file("v.ply"), "--json", "--threads", "1"};
+  std::vector<std::string> args = {"distance",
+                                   a,
+                                   b,
+                                   "--samples",
+                                   "20000",
+                                   "--hausdorff-tolerance",
+                                   "0.01",
+                                   "--metro",
+                                   "--mpeg",
+                                   "--per-vertex",
+                                   folder.file("v.ply"),
+                                   "--json",
+                                   "--threads",
+                                   "1"};
   const Ran one = gsp_run(args);
   CAPTURE(one.err);
   REQUIRE(one.status == 0);

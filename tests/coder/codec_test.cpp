@@ -1,11 +1,14 @@
 #include "coder/codec.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
 #include "coder/base_connectivity.h"
 #include "coder/coded_order.h"
 #include "coder/local_frames.h"
+#include "coder/rate_distortion.h"
 #include "tests/cause_of.h"
 #include "tests/coder/sample_meshes.h"
 
@@ -56,7 +59,8 @@ TEST_CASE("the parts of a stream add up to it") {
   const Bytes stream = encode(samples::bumpy_sphere(4), {}, silent, &parts);
   CHECK(parts.header_bytes + parts.connectivity_bytes == header_bytes(stream));
   double bits = parts.bits.base;
-  for (const BitplaneParts::Component& c : parts.bits.details) bits += c.trees + c.significance + c.signs + c.refinement;
+  for (const BitplaneParts::Component& c : parts.bits.details)
+    bits += c.trees + c.significance + c.signs + c.refinement;
   CHECK(bits / 8.0 == Approx(stream.size() - header_bytes(stream)).epsilon(0.005));
 }
 
@@ -99,6 +103,45 @@ TEST_CASE("every prefix that holds the header decodes, and more bytes are better
   CHECK(decode(cut, cut.size()).positions == decode(stream, header + 100).positions);
   CHECK(cause_of([&] { decode(stream, header - 1); }) == Cause::Truncated);
   CHECK(cause_of([&] { decode({}, 0); }) == Cause::BadStream);
+}
+
+TEST_CASE("a stream for one size keeps to it and is nearer than the embedded one's prefix") {
+  for (const SemiregularMesh& mesh : {samples::bumpy_sphere(5), samples::wavy_sheet(4)}) {
+    Bytes unused;
+    const SurfaceError error(in_coded_order(mesh, encode_connectivity(mesh.base_faces, unused)).mesh());
+    double ratio = 1.0;
+    const Bytes embedded = encode(mesh, {}, silent);
+    for (std::size_t bytes : {300, 600, 1200}) {
+      const Bytes fixed = encode_fixed(mesh, {}, bytes, silent);
+      CHECK(fixed.size() == bytes);
+      CHECK(encode_fixed(mesh, {}, bytes, silent) == fixed);
+      ratio *= error.of(decode(fixed, bytes).positions) / error.of(decode(embedded, bytes).positions);
+    }
+    CHECK(ratio < 1.0);
+    const std::size_t ample = 2 * embedded.size();
+    const Bytes whole = encode_fixed(mesh, {}, ample, silent);
+    CHECK(whole.size() < ample);
+    CHECK(rms_error(mesh, decode(whole, ample)) < 1.1 * rms_error(mesh, decode(embedded, ample)));
+    const std::size_t header = header_bytes(embedded);
+    CHECK(decode(encode_fixed(mesh, {}, header, silent), header).level == mesh.level);
+    CHECK(cause_of([&] { encode_fixed(mesh, {}, header - 1, silent); }) == Cause::BadOption);
+  }
+}
+
+TEST_CASE("more bytes are never much worse, wherever the stream is cut") {
+  const SemiregularMesh mesh = samples::bumpy_sphere(4);
+  const Bytes stream = encode(mesh, {}, silent);
+  const std::size_t header = header_bytes(stream);
+  Random random(7);
+  std::vector<std::size_t> cuts;
+  for (int i = 0; i < 200; ++i) cuts.push_back(header + random.next() % (stream.size() - header + 1));
+  std::sort(cuts.begin(), cuts.end());
+  double best = std::numeric_limits<double>::infinity();
+  for (std::size_t bytes : cuts) {
+    const double error = rms_error(mesh, decode(stream, bytes));
+    CHECK(20.0 * std::log10(error / best) < 0.3);
+    best = std::min(best, error);
+  }
 }
 
 TEST_CASE("options and meshes that cannot be coded are refused") {
