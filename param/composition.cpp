@@ -17,6 +17,15 @@ constexpr double kTouching = 0.05; // of an edge, within which its end is moved 
 constexpr double kCrowded = 0.1;   // of their even spacing, nearer than which vertices on an edge are spaced evenly
 constexpr int kSpreads = 100;
 
+/// The lattice motion that takes two lattice points, given to rounding, to two others.
+Transition motion(Complex a, Complex b, Complex a_there, Complex b_there) {
+  const Eisenstein from = nearest_lattice_point(a), to = nearest_lattice_point(a_there);
+  const Eisenstein along = nearest_lattice_point(b) - from, along_there = nearest_lattice_point(b_there) - to;
+  for (int k = 0; k < 6; ++k)
+    if (rotate(along, k) == along_there) return {k, to - rotate(from, k)};
+  throw Error(Cause::Internal, "an edge between two patch corners is not as long on both sides");
+}
+
 Complex flat_point(const std::array<double, 3>& weights) { return chart_position(weights[0], weights[1]); }
 
 }  // namespace
@@ -343,15 +352,11 @@ Transition Composition::across(int h) const {
   for (int i = 0; i < 2; ++i)
     if (map_.atlas.corner[ends[i]] < 0)
       return frames_[twin / 3].to_chart[there[i]] * frames_[h / 3].to_chart[here[i]].inverse();
-  // Between two patch corners transitions hold up to turns; their places are lattice points.
-  Eisenstein from[2], to[2];
-  for (int i = 0; i < 2; ++i) {
-    from[i] = nearest_lattice_point(frames_[h / 3].to_chart[here[i]].apply(map_.atlas.position[ends[i]]));
-    to[i] = nearest_lattice_point(frames_[twin / 3].to_chart[there[i]].apply(map_.atlas.position[ends[i]]));
-  }
-  for (int k = 0; k < 6; ++k)
-    if (rotate(from[1] - from[0], k) == to[1] - to[0]) return {k, to[0] - rotate(from[0], k)};
-  throw Error(Cause::Internal, "an edge between two patch corners is not as long on both sides", Element::Edge, second_.edge_of[h]);
+  // Between two patch corners transitions hold up to turns.
+  const auto place = [&](int face, int corner, int i) {
+    return frames_[face].to_chart[corner].apply(map_.atlas.position[ends[i]]);
+  };
+  return motion(place(h / 3, here[0], 0), place(h / 3, here[1], 1), place(twin / 3, there[0], 0), place(twin / 3, there[1], 1));
 }
 
 /// From the frame of a face of the second surface to the chart of a vertex of one of its pieces.
@@ -362,10 +367,31 @@ Transition Composition::to_home(int v, int face) const {
     const int k = static_cast<int>(std::find(t.begin(), t.end(), w) - t.begin());
     return frames_[face].to_chart[k].inverse();
   }
-  if (home_[v] == face) return {};
+  if (home_[v] == face) return from_home_[v];
   for (int h = 3 * face; h < 3 * face + 3; ++h)
-    if (second_.halfedges.twin[h] >= 0 && second_.halfedges.twin[h] / 3 == home_[v]) return across(h);
+    if (second_.halfedges.twin[h] >= 0 && second_.halfedges.twin[h] / 3 == home_[v]) return from_home_[v] * across(h);
   throw Error(Cause::Internal, "a vertex on an edge of the complex lies in neither triangle beside it", Element::Vertex, v);
+}
+
+/// From the frame of a face of the second surface to the chart of the base's boundary edge along which its half-edge h, which has
+/// no twin, runs.
+Transition Composition::to_boundary_chart(int h, int& chart) const {
+  const Atlas& atlas = map_.atlas;
+  const Atlas::FaceFrame& frame = frames_[h / 3];
+  const int ends[2] = {second_.halfedges.from(h), second_.halfedges.to(h)}, at[2] = {h % 3, (h % 3 + 1) % 3};
+  for (int i = 0; i < 2; ++i)
+    if (atlas.corner[ends[i]] < 0) {
+      chart = atlas.patch[ends[i]];
+      return frame.to_chart[at[i]].inverse();
+    }
+  for (const BaseFan::Sector& s : atlas.fans[atlas.corner[ends[0]]].sectors) {
+    const int next = (s.corner + 1) % 3;
+    if (atlas.base.twins[3 * s.face + s.corner] >= 0 || atlas.base.faces[s.face][next] != atlas.corner[ends[1]]) continue;
+    chart = s.face;
+    return motion(frame.to_chart[at[0]].apply(atlas.position[ends[0]]), frame.to_chart[at[1]].apply(atlas.position[ends[1]]),
+                  kChartCorners[s.corner].value(), kChartCorners[next].value());
+  }
+  throw Error(Cause::Internal, "a boundary edge between two patch corners is none of the base", Element::Edge, second_.edge_of[h]);
 }
 
 RefinedMap Composition::finish() {
@@ -381,6 +407,7 @@ RefinedMap Composition::finish() {
   atlas.position.assign(count, 0.0);
   atlas.corner.assign(count, -1);
   home_.assign(refined_.vertex_count(), -1);
+  from_home_.assign(refined_.vertex_count(), {});
   const auto piece_of = [&](int f) { return compact.halfedge[3 * f] / 3; };
   for (int f = 0; f < surface.mesh.face_count(); ++f) {
     const int piece = piece_of(f), g = face_of_piece_[piece];
@@ -400,6 +427,10 @@ RefinedMap Composition::finish() {
       const auto weights = barycentric(at, flat_point(corner_[3 * g]), flat_point(corner_[3 * g + 1]), flat_point(corner_[3 * g + 2]));
       atlas.patch[number] = frames_[g].chart;
       atlas.position[number] = weights[0] * z[0] + weights[1] * z[1] + weights[2] * z[2];
+      if (!surface.halfedges.boundary_vertex(number)) continue;
+      const int opposite = static_cast<int>(std::min_element(weights.begin(), weights.end()) - weights.begin());
+      from_home_[v] = to_boundary_chart(3 * g + (opposite + 1) % 3, atlas.patch[number]);
+      atlas.position[number] = from_home_[v].apply(atlas.position[number]);
     }
   }
   for (int e = 0; e < surface.edge_count(); ++e) {

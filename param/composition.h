@@ -43,6 +43,7 @@ class Composition {
   Weights place_weights(int v, int slot) const;
   Complex flat_in(int v, int slot) const;
   Transition across(int h) const;
+  Transition to_boundary_chart(int h, int& chart) const;
   Transition to_home(int v, int face) const;
 
   OverlayMap& overlay_;
@@ -57,7 +58,8 @@ class Composition {
   std::vector<int> face_of_piece_;    ///< per piece, the face of `second_` that holds it
   std::vector<int> slot_of_piece_;    ///< per piece, the complex's triangle that holds it
   std::vector<Atlas::FaceFrame> frames_;  ///< per face of `second_`
-  std::vector<int> home_;             ///< per vertex of the overlay, a face of `second_` that holds it
+  std::vector<int> home_;             ///< per vertex of the overlay, a face of `second_` that holds it,
+  std::vector<Transition> from_home_; ///< and from that face's frame to the vertex's chart
 };
 
 }  // namespace gsp

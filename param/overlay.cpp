@@ -13,6 +13,8 @@ namespace {
 using Hold = PlanarRegion::Hold;
 
 constexpr double kLeast = 1e-13;  // share of a triangle, below which rounding could fold a piece
+constexpr int kMostPieces = 10;   // for each of the surface's own vertices in a star,
+constexpr int kFewVertices = 16;  // and as many for so many more: twice a usual star's on thin limbs
 
 }  // namespace
 
@@ -136,10 +138,18 @@ bool OverlayMap::fill(int slot, const RingTriangle& triangle) {
   return true;
 }
 
+/// Whether the cuts have left far more pieces than the surface has vertices there. Around a small handle edges of the complex
+/// can come to wind about it, once more with every removal, until no map of use is left.
+bool OverlayMap::winds() const {
+  const auto own = std::count_if(region_.vertices().begin(), region_.vertices().end(),
+                                 [&](int v) { return !refined_->added(v); });
+  return static_cast<long>(region_.faces().size()) > kMostPieces * (own + kFewVertices);
+}
+
 bool OverlayMap::remove(const Removal& removal) {
   const Backup backup = lay_out(removal.vertex);
   region_.relax();
-  bool possible = cut_all(removal);
+  bool possible = cut_all(removal) && !winds();
   if (possible) {
     if (star_.boundary) straighten_boundary();
     region_.relax();

@@ -23,7 +23,7 @@ class OverlayMap {
   explicit OverlayMap(std::shared_ptr<const Surface> surface);
 
   /// Fills the hole of the removed vertex. False, and nothing is changed, where a piece of the star would be too small for
-  /// rounding.
+  /// rounding, or where the edges of the complex would wind about a handle.
   bool remove(const Removal& removal);
 
   const std::shared_ptr<const Surface>& surface() const { return surface_; }
@@ -68,6 +68,7 @@ class OverlayMap {
   void take_back(const Backup& backup);
   void leave();
   bool cut_all(const Removal& removal);
+  bool winds() const;
   void straighten_boundary();
   bool fill(int slot, const RingTriangle& triangle);
 

@@ -11,7 +11,8 @@ namespace gsp {
 namespace {
 
 constexpr double kRoughly = 2e-3, kFinely = 1e-4;  // gain of a step that ends lowering the distortion, between and after relaxations
-constexpr int kSweeps = 2;
+constexpr int kSweeps = 1;
+constexpr int kWhole = 20000;  // vertices up to which the whole map is smoothed at once after each relaxation
 
 int relax_or_descend(Atlas& atlas, const ParameterizeOptions& options) {
   if (options.corners == Corners::Gradient)
@@ -29,11 +30,14 @@ int smooth_coarsest(RefinedMap& map, const ParameterizeOptions& options, bool fi
   best.offer(map.atlas, 0);
   for (int round = 1; round <= options.relaxations; ++round) {
     if (relax_or_descend(map.atlas, options) == 0) break;
-    lower_distortion(map.atlas, kRoughly, progress);
+    if (map.atlas.surface->mesh.vertex_count() <= kWhole)
+      lower_distortion(map.atlas, kRoughly, progress);
+    else
+      lower_distortion_locally(map.atlas, kSweeps, progress);  // what the corners have changed is local
     best.offer(map.atlas, round);
   }
   map.atlas = best.atlas();
-  if (finest) lower_distortion(map.atlas, kFinely, progress);
+  lower_distortion(map.atlas, finest ? kFinely : kRoughly, progress);
   return best.round();
 }
 
