@@ -45,9 +45,7 @@ TEST_CASE("every bad file is reported on: usable, or a named cause with status 3
   }
 }
 
-// Known to fail on a few usable files, which the parameterizer gives up on by name (invalid-map) or after a long time:
-// validity on every surface is issue 3. Reported in each run until then, so that progress and decline both show.
-TEST_CASE("every usable bad file is parameterized, in good time", "[slow][!mayfail]") {
+TEST_CASE("every usable bad file is parameterized, in good time", "[slow]") {
   const std::string shared = shared_meshes();
   if (shared.empty()) return;
   const TemporaryFolder folder;
