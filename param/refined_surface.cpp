@@ -159,7 +159,7 @@ bool RefinedSurface::can_collapse(int h) const {
   bool possible = true;
   for_each_outgoing(m, [&](int out) {
     const int x = to(out), y = from(Halfedges::prev(out));
-    if (x == n || y == n) return;
+    if (!possible || x == n || y == n) return;
     const auto wn = weights_in(n, origin_[out / 3]), wx = weights_in(x, origin_[out / 3]),
                wy = weights_in(y, origin_[out / 3]);
     const double area = (wx[1] - wn[1]) * (wy[2] - wn[2]) - (wx[2] - wn[2]) * (wy[1] - wn[1]);

@@ -78,9 +78,15 @@ class RefinedSurface {
   /// order, of the face of a half-edge `out` that leaves it.
   template <class Link>
   int collapsible(int v, Complex center, Link&& link) const {
+    double before = 1.0;
+    for_each_outgoing(v, [&](int h) {
+      const auto [x, y] = link(h);
+      before = std::min(before, thickness(center, x, y));
+    });
+    const double least = std::min(kThin, kWorse * before);
     int along = -1;
     for_each_outgoing(v, [&](int h) {
-      if (along < 0 && can_collapse(h) && draws_well(h, center, link)) along = h;
+      if (along < 0 && draws_well(h, least, link) && can_collapse(h)) along = h;
     });
     return along;
   }
@@ -99,16 +105,16 @@ class RefinedSurface {
   };
 
   template <class Link>
-  bool draws_well(int h, Complex center, Link&& link) const {
+  bool draws_well(int h, double least, Link&& link) const {
     const int n = to(h);
-    double before = 1.0, after = 1.0;
+    bool well = true;
     const Complex goal = link(h).first;
     for_each_outgoing(from(h), [&](int out) {
+      if (!well || to(out) == n || from(Halfedges::prev(out)) == n) return;
       const auto [x, y] = link(out);
-      before = std::min(before, thickness(center, x, y));
-      if (to(out) != n && from(Halfedges::prev(out)) != n) after = std::min(after, thickness(goal, x, y));
+      well = thickness(goal, x, y) > least;
     });
-    return after > std::min(kThin, kWorse * before);
+    return well;
   }
 
   bool boundary(int v) const { return !added(v) && original_->halfedges.boundary_vertex(v); }
