@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRoughly = 2e-3, kFinely = 1e-4;  // gain of a step that ends lowering the distortion, between and after relaxations
 constexpr int kSweeps = 1;
-constexpr int kWhole = 20000;  // vertices up to which the whole map is smoothed at once after each relaxation
+constexpr int kWhole = 20000;  // vertices up to which the whole map is smoothed at once, after each relaxation too
 
 int relax_or_descend(Atlas& atlas, const ParameterizeOptions& options) {
   if (options.corners == Corners::Gradient)
@@ -22,6 +22,8 @@ int relax_or_descend(Atlas& atlas, const ParameterizeOptions& options) {
 
 /// The whole map at once. Returns how many relaxations were kept.
 int smooth_coarsest(RefinedMap& map, const ParameterizeOptions& options, bool finest, Progress& progress) {
+  const bool large = map.atlas.surface->mesh.vertex_count() > kWhole;
+  if (large) lower_distortion_locally(map.atlas, kSweeps, progress);
   lower_distortion(map.atlas, kRoughly, progress);
   // Where the map has become smooth it needs fewer added vertices.
   map = coarsen(std::move(map));
@@ -30,10 +32,10 @@ int smooth_coarsest(RefinedMap& map, const ParameterizeOptions& options, bool fi
   best.offer(map.atlas, 0);
   for (int round = 1; round <= options.relaxations; ++round) {
     if (relax_or_descend(map.atlas, options) == 0) break;
-    if (map.atlas.surface->mesh.vertex_count() <= kWhole)
-      lower_distortion(map.atlas, kRoughly, progress);
+    if (large)  // what the corners have changed is local
+      lower_distortion_locally(map.atlas, kSweeps, progress);
     else
-      lower_distortion_locally(map.atlas, kSweeps, progress);  // what the corners have changed is local
+      lower_distortion(map.atlas, kRoughly, progress);
     best.offer(map.atlas, round);
   }
   map.atlas = best.atlas();
