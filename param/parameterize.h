@@ -77,7 +77,7 @@ struct OmegaRecord {
 struct ParameterizeResult {
   Parameterization map;
   std::vector<OmegaRecord> omega;  ///< a record a removal, and with an automatic base size that of the one it stopped at
-  int flips_before_repair = 0;  ///< of the initial map, or of the paper's solution with Objective::Linear
+  int flips_before_repair = 0;  ///< of the paper's solution with Objective::Linear; the other map never has any
   int relaxation_rounds = 0;
   int corners_moved = 0;
   int held_vertices = 0;  ///< kept back from the smooth solution, which would be folded there
