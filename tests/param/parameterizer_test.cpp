@@ -258,8 +258,10 @@ TEST_CASE("both objectives give valid maps") {
   }
 }
 
-TEST_CASE("the map is valid, and the same bits for one and two threads") {
-  for (Case& c : cases()) {
+namespace {
+
+void check_valid_and_deterministic(const std::vector<Case>& cases) {
+  for (const Case& c : cases) {
     INFO(c.name);
     ParameterizeOptions options;
     options.base_vertices = c.base_vertices;
@@ -275,6 +277,16 @@ TEST_CASE("the map is valid, and the same bits for one and two threads") {
     CHECK(one.map.surface.vertex_count() >= c.mesh.vertex_count());
     CHECK(static_cast<int>(one.omega.size()) + c.base_vertices >= c.mesh.vertex_count());
   }
+}
+
+}  // namespace
+
+TEST_CASE("the map is valid, and the same bits for one and two threads") { check_valid_and_deterministic(cases()); }
+
+TEST_CASE("so is one that is made in levels", "[slow]") {
+  check_valid_and_deterministic({{"large sphere", shapes::bumpy_sphere(5), 30},
+                                 {"large open grid", shapes::grid(110, 90, 0.1), 20},
+                                 {"large torus", shapes::torus(160, 70), 24}});
 }
 
 TEST_CASE("the baselines stand on the same base and keep its area") {
