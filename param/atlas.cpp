@@ -135,14 +135,38 @@ Atlas::FaceFrame Atlas::face_frame(int face) const {
   FaceFrame frame;
   frame.chart = patch[t[reference]];
   const int out = 3 * face + reference, in = Halfedges::prev(out);
-  const auto along = [&](int h, bool reverse) {
-    const int edge = surface->edge_of[h];
-    return towards(edge, (surface->edge_halfedge[edge] == h) != reverse);
-  };
   frame.to_chart[(reference + 1) % 3] = along(out, false);
   frame.to_chart[(reference + 2) % 3] = along(in, true);
-  if (corner[t[reference]] < 0) return frame;
-  // All three are patch corners: turn the third about the first until the third edge closes up.
+  if (corner[t[reference]] >= 0) {
+    close_up(face, frame);
+    take_base_face(t, frame);
+  }
+  return frame;
+}
+
+/// Where a face between patch corners is one of the base's, its chart is that one: the first corner's own chart could be told
+/// from it only by the way about the corner, which positions do not show.
+void Atlas::take_base_face(const Triangle& t, FaceFrame& frame) const {
+  std::array<Complex, 3> z;
+  for (int k = 0; k < 3; ++k) z[k] = frame.to_chart[k].apply(position[t[k]]);
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(std::abs(z[(k + 1) % 3] - z[k]) - 1.0) > 1e-9) return;
+  for (const BaseFan::Sector& s : fans[corner[t[0]]].sectors) {
+    const Triangle& c = base.faces[s.face];
+    if (c[(s.corner + 1) % 3] != corner[t[1]] || c[(s.corner + 2) % 3] != corner[t[2]]) continue;
+    frame.chart = s.face;
+    for (int k = 0; k < 3; ++k) {
+      const BaseFan& fan = fans[corner[t[k]]];
+      frame.to_chart[k] = fan.develop(fan.find(s.face)).inverse() * fan.develop(fan.find(patch[t[k]]));
+    }
+    return;
+  }
+}
+
+/// Turns the third of three patch corners about the first until the face's third edge closes up.
+void Atlas::close_up(int face, FaceFrame& frame) const {
+  const Triangle& t = surface->mesh.faces[face];
+  constexpr int reference = 0;
   const BaseFan& fan = fans[corner[t[reference]]];
   const BaseFan& fan1 = fans[corner[t[(reference + 1) % 3]]];
   const auto turn = [&](const BaseFan& f, int chart, int sectors) {
@@ -151,7 +175,7 @@ Atlas::FaceFrame Atlas::face_frame(int face) const {
   };
   const Complex z0 = position[t[reference]], z1 = frame.to_chart[(reference + 1) % 3].apply(position[t[(reference + 1) % 3]]);
   const Transition third = frame.to_chart[(reference + 2) % 3];
-  const Transition between = along(Halfedges::next(out), false);  // from the third's chart to the second's
+  const Transition between = along(3 * face + 1, false);  // from the third's chart to the second's
   const int turns = fan.boundary ? 1 : 6, turns1 = fan1.boundary ? 1 : 6;  // six turns are the identity
   bool closed = false;
   for (int m = 0; m < turns; ++m) {
@@ -165,10 +189,9 @@ Atlas::FaceFrame Atlas::face_frame(int face) const {
       if (closed && !upright) continue;
       frame.to_chart[(reference + 2) % 3] = candidate;
       closed = true;
-      if (upright) return frame;
+      if (upright) return;
     }
   }
-  return frame;
 }
 
 std::array<Complex, 3> Atlas::face_corners(int face, const FaceFrame& frame) const {

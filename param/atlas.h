@@ -84,6 +84,15 @@ class Atlas {
   int broken_faces() const;
 
   Parameterization finish(std::vector<std::string> provenance) const;
+
+ private:
+  /// From the chart of a half-edge's head to that of its tail, or back.
+  Transition along(int h, bool reverse) const {
+    const int edge = surface->edge_of[h];
+    return towards(edge, (surface->edge_halfedge[edge] == h) != reverse);
+  }
+  void close_up(int face, FaceFrame& frame) const;
+  void take_base_face(const Triangle& t, FaceFrame& frame) const;
 };
 
 /// The atlas of a map every face of which lies in one base face, whose chart it is given in, such as that of a remesh onto

@@ -138,6 +138,29 @@ TEST_CASE("the levels of a simplification together make the same base as their r
   CHECK(triangles(smooth->atlas.base) == triangles(maps.base));
 }
 
+TEST_CASE("a face that the simplification has left to the base has its own base face as its chart") {
+  ParameterizeOptions options;
+  options.base_vertices = 120;
+  Progress progress;
+  SimplifyResult made = simplify(std::make_shared<const Surface>(spiky_sphere(2)), options, 1, progress);
+  const Parameterization map = std::move(made.levels.back()).coarsened().atlas.finish({});
+  CHECK(check_map(map).valid());
+  std::vector<int> corner(map.surface.positions.size(), -1);
+  for (int b = 0; b < map.base.vertex_count(); ++b) corner[map.base.vertices[b]] = b;
+  int left = 0;
+  for (int f = 0; f < map.surface.face_count(); ++f) {
+    std::set<int> corners;
+    for (int v : map.surface.faces[f]) corners.insert(corner[v]);
+    const bool in_base = std::any_of(map.base.faces.begin(), map.base.faces.end(),
+                                     [&](const Triangle& t) { return std::set<int>(t.begin(), t.end()) == corners; });
+    if (!in_base) continue;
+    ++left;
+    const Triangle& chart = map.base.faces[map.face_chart[f]];
+    CHECK(std::set<int>(chart.begin(), chart.end()) == corners);
+  }
+  CHECK(left > 20);
+}
+
 TEST_CASE("a face cut to pieces comes back whole when the cuts are drawn together") {
   const Mesh mesh = shapes::sphere(1);
   RefinedSurface refined(std::make_shared<const Surface>(mesh));
