@@ -53,6 +53,15 @@ std::string bars(const std::vector<std::string>& labels, const std::string& rows
   return script + "\"\n";
 }
 
+/// The colours that labels have in the curves of the same run.
+std::vector<std::string> curve_colors(const Run& run, const std::vector<std::string>& labels) {
+  const std::vector<std::string> all = run.labels(), colors = method_colors(all);
+  std::vector<std::string> chosen;
+  for (const std::string& label : labels)
+    chosen.push_back(colors[static_cast<std::size_t>(std::find(all.begin(), all.end(), label) - all.begin())]);
+  return chosen;
+}
+
 /// The labels of a model's finished maps, in the order of the run.
 bool has_map(const StoredCell& cell) {
   return cell.status == CellStatus::Done && cell.number("remesh_error").has_value();
@@ -154,7 +163,7 @@ void bar_figure(const Run& run, const Findings& found, const std::string& folder
     }
     rows += '\n';
   }
-  const std::string setup = bars(labels, rows, method_colors(labels)) +
+  const std::string setup = bars(labels, rows, curve_colors(run, labels)) +
                             "set datafile separator whitespace\nset ylabel 'bytes over those of " + found.reference +
                             ", %'\nset xzeroaxis lt 1 lc rgb '#555555'\nset yrange [*<0:0<*]\n";
   add_figure(figures, folder, "bd-rate", figure_script("bd-rate", setup, "eval(bars)\n", 900, 500),
@@ -238,7 +247,7 @@ void error_figure(const Run& run, const std::string& folder, std::vector<RunFigu
     paper = paper || published;
     rows += ' ' + value_or_missing(published, 1e5) + '\n';
   }
-  std::vector<std::string> colors = method_colors(labels);
+  std::vector<std::string> colors = curve_colors(run, labels);
   if (paper) {
     labels.push_back("paper, Table 1");
     colors.push_back("#d8a200");
