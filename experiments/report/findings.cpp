@@ -107,19 +107,23 @@ struct Setting {
 };
 
 /// Settings of the reference's method with their means over the models, best first; those that lack a model that the
-/// others have are left out, since a mean over fewer models is another question.
-std::vector<Setting> ranked_settings(const Run& run, const Findings& found, const std::string& method) {
+/// others have are left out and counted, since a mean over fewer models is another question.
+std::vector<Setting> ranked_settings(const Run& run, const Findings& found, const std::string& method, int& left_out) {
   std::vector<Setting> settings;
+  left_out = 0;
   for (const std::string& label : run.labels()) {
     const auto cell =
         std::find_if(run.cells.begin(), run.cells.end(), [&](const StoredCell& c) { return c.label == label; });
     if (cell->options.method != method || label == found.reference) continue;
     int models = 0;
-    if (const auto mean = found.mean_bd_rate(label, models)) settings.push_back({label, *mean, models});
+    if (const auto mean = found.mean_bd_rate(label, models))
+      settings.push_back({label, *mean, models});
+    else
+      ++left_out;
   }
   int most = 0;
   for (const Setting& s : settings) most = std::max(most, s.models);
-  std::erase_if(settings, [&](const Setting& s) { return s.models < most; });
+  left_out += static_cast<int>(std::erase_if(settings, [&](const Setting& s) { return s.models < most; }));
   settings.push_back({found.reference, 0.0, most});
   std::stable_sort(settings.begin(), settings.end(),
                    [](const Setting& a, const Setting& b) { return a.bd_rate < b.bd_rate; });
@@ -145,7 +149,8 @@ std::string best_by_model(const Run& run, const Findings& found, const std::vect
 /// Which setting of the reference's method is best, and by how much.
 void tell_settings(const Run& run, const Findings& found, const std::string& method,
                    std::vector<std::string>& sentences) {
-  const std::vector<Setting> settings = ranked_settings(run, found, method);
+  int left_out = 0;
+  const std::vector<Setting> settings = ranked_settings(run, found, method, left_out);
   if (settings.size() < 2) return;
   const Setting &best = settings.front(), &next = settings[1], &worst = settings.back();
   const auto over = [&](const Setting& s) { return 100.0 * ((100.0 + s.bd_rate) / (100.0 + best.bd_rate) - 1.0); };
@@ -154,6 +159,7 @@ void tell_settings(const Run& run, const Findings& found, const std::string& met
   if (best.label != found.reference) sentence += fmt::format(": {:.1f}% fewer than {}", -best.bd_rate, found.reference);
   sentence += fmt::format("; the next best, {}, needs {:.1f}% more than it", next.label, over(next));
   if (settings.size() > 2) sentence += fmt::format(", the worst, {}, {:.1f}%", worst.label, over(worst));
+  if (left_out > 0) sentence += fmt::format("; {} more {} not compared, for want of a model", left_out, left_out == 1 ? "is" : "are");
   std::vector<std::string> without;
   for (const StoredModel& model : run.models) {
     const Comparison* c = found.comparison(
