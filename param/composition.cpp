@@ -12,7 +12,6 @@ namespace {
 
 using Hold = PlanarRegion::Hold;
 
-constexpr double kLeast = 1e-13;   // share of a triangle, below which rounding could fold a piece
 constexpr double kTouching = 0.05; // of an edge, within which its end is moved instead of splitting it
 constexpr double kCrowded = 0.1;   // of their even spacing, nearer than which vertices on an edge are spaced evenly
 constexpr int kSpreads = 100;
@@ -337,7 +336,7 @@ bool Composition::distribute(int face, const std::vector<Line>& lines) {
     if (given[owner]) return false;
     given[owner] = 1;
     for (int f : part) {
-      if (!(region.area(f) > kLeast * whole)) return false;
+      if (!(region.area(f) > kLeastPiece * whole)) return false;
       face_of_piece_[f] = g;
     }
   }

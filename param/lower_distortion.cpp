@@ -87,7 +87,7 @@ struct Block {
 std::vector<Block> overlapping_blocks(const Atlas& atlas) {
   const Surface& surface = *atlas.surface;
   std::vector<Block> blocks;
-  std::vector<int> reached(atlas.patch.size(), -1), face_reached(surface.mesh.faces.size(), -1);
+  std::vector<int> reached(atlas.patch.size(), -1);
   for (std::vector<int>& grown : blocks_of(atlas)) {
     const int number = static_cast<int>(blocks.size());
     Block block{std::move(grown), {}};
@@ -101,15 +101,7 @@ std::vector<Block> overlapping_blocks(const Atlas& atlas) {
           block.vertices.push_back(w);
         });
     std::sort(block.vertices.begin(), block.vertices.end());
-    for (int v : block.vertices) {
-      const int start = surface.halfedges.outgoing[v];
-      int h = start;
-      do {
-        if (face_reached[h / 3] != number) block.faces.push_back(h / 3);
-        face_reached[h / 3] = number;
-        h = surface.halfedges.rotate_ccw(h);
-      } while (h != start);
-    }
+    block.faces = faces_around(surface, block.vertices);
     blocks.push_back(std::move(block));
   }
   return blocks;

@@ -12,7 +12,6 @@ namespace {
 
 using Hold = PlanarRegion::Hold;
 
-constexpr double kLeast = 1e-13;  // share of a triangle, below which rounding could fold a piece
 constexpr int kMostPieces = 10;   // for each of the surface's own vertices in a star,
 constexpr int kFewVertices = 16;  // and as many for so many more: twice a usual star's on thin limbs
 
@@ -128,7 +127,7 @@ bool OverlayMap::fill(int slot, const RingTriangle& triangle) {
   const Complex plane[3] = {ring_[triangle[0]], ring_[triangle[1]], ring_[triangle[2]]};
   const double whole = chart_area(plane[0], plane[1], plane[2]);
   for (int f : pieces) {
-    if (!(region_.area(f) > kLeast * whole)) return false;
+    if (!(region_.area(f) > kLeastPiece * whole)) return false;
     for (int v : refined_->corners(f)) {
       if (region_.hold(v) != Hold::Free) continue;
       const auto w = barycentric(region_.flat(v), plane[0], plane[1], plane[2]);

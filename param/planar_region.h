@@ -7,6 +7,9 @@
 
 namespace gsp {
 
+/// Share of the triangle that holds it, below which rounding could fold a piece.
+inline constexpr double kLeastPiece = 1e-13;
+
 /// Some faces of a refined surface laid into the plane, where they are embedded, to be cut along straight lines. Vertices on
 /// the region's border stay where they are; those on a cut stay on it; others may be moved to keep pieces thick and large
 /// enough. All vectors are kept from region to region.

@@ -98,20 +98,11 @@ class Repair {
   }
 
   void untangle(const std::vector<int>& region) {
-    std::vector<int> vertices, faces;
-    for (int v : region) {
-      if (!atlas_.is_free(v)) continue;
-      vertices.push_back(v);
-      const int start = surface_.halfedges.outgoing[v];
-      int h = start;
-      do {
-        faces.push_back(Halfedges::face(h));
-        h = surface_.halfedges.rotate_ccw(h);
-      } while (h != start);
-    }
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    std::vector<int> vertices;
+    for (int v : region)
+      if (atlas_.is_free(v)) vertices.push_back(v);
     if (vertices.empty() || vertices.size() > kLargestDisc) return;
+    const std::vector<int> faces = faces_around(surface_, vertices);
     std::vector<Complex> before;
     for (int v : vertices) before.push_back(atlas_.position[v]);
     const DistortionEnergy energy(atlas_, vertices, faces, reference_shapes(atlas_, faces), kAreaWeight);
