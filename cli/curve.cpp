@@ -50,7 +50,7 @@ void add_curve(CLI::App& app, Context& context) {
   command.output("DIR", options->output, "folder for curve.csv and the figures");
   command.choices("--methods", options->methods, map_method_words(), "maps to compare on one base complex");
   command.parameterize_options(options->curve.parameterize);
-  command.level_option(options->curve.remesh);
+  command.remesh_options(options->curve.remesh);
   command.encode_options(options->wavelet, options->curve.encode);
   command.sizes("--budgets", options->curve.budgets, "bytes to decode [256, 512, 1024, ... and the whole stream]");
   command.sampling_options(options->curve.samples, options->curve.seed);

@@ -243,13 +243,27 @@ void Command::parameterize_options(ParameterizeOptions& options) {
   axis_number("mu", options.mu, "weight of area dispersion in the cost");
   axis_integer("relaxations", options.relaxations, "corner relaxations between solves at most");
   axis_word("objective", options, "what the map minimises: linear is the paper's global system");
-  axis_word("corners", options, "how corners move between solves: the paper's relaxation, or down the energy's gradient");
+  axis_word("corners", options,
+            "how corners move between solves: the paper's relaxation, or down the energy's gradient");
   axis_word("weights", options, "of the linear objective and of corner relaxation");
 }
 
-void Command::level_option(RemeshOptions& options) {
+void Command::remesh_options(RemeshOptions& options) {
   axis_integer_or_auto("level", options.level, RemeshOptions::kAutoLevel,
                        "quadrisections of the base; auto is the first level with as many faces as the input");
+  const Axis& positions = axis("positions");
+  const auto set = [&options, &positions](const std::string& given) {
+    CellOptions changed;
+    positions.set(changed, given);
+    options.positions = changed.remesh.positions;
+  };
+  app_->add_option_function<std::string>(
+          option_of(positions.name), set,
+          fmt::format("vertices of the remesh: fitted to be nearest in the mean square, or the paper's samples of the "
+                      "surface [{}; {}]",
+                      positions_name(options.positions), fmt::join(positions.words, ", ")))
+      ->check([&positions](const std::string& given) { return refusal(given, positions.words); })
+      ->option_text("WORD");
 }
 
 void Command::encode_options(std::string& wavelet, EncodeOptions& options) {

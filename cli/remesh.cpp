@@ -23,10 +23,13 @@ struct RemeshArguments {
 int run_remesh(const RemeshArguments& options, Context& context) {
   Progress progress = context.console.progress();
   const Parameterization map = read_parameterization(options.map);
-  const SemiregularMesh result = options.max_error > 0.0 ? remesh_to_error(map, options.max_error, progress)
-                                                         : remesh(map, options.remesh, progress);
-  write_semiregular(options.output, result);
+  const SemiregularMesh result = options.max_error > 0.0
+                                     ? remesh_to_error(map, options.max_error, options.remesh.positions, progress)
+                                     : remesh(map, options.remesh, progress);
+  const std::string positions = positions_name(options.remesh.positions);
+  write_semiregular(options.output, result, {"positions " + positions});
   print_report(context, {{"level", result.level},
+                         {"positions", positions},
                          {"vertices", result.positions.size()},
                          {"faces", result.base_faces.size() << (2 * result.level)},
                          {"base_vertices", result.base_vertices},
@@ -38,11 +41,11 @@ int run_remesh(const RemeshArguments& options, Context& context) {
 }  // namespace
 
 void add_remesh(CLI::App& app, Context& context) {
-  Command command(app, context, "remesh", "a semi-regular mesh sampled through a map");
+  Command command(app, context, "remesh", "a semi-regular mesh made through a map");
   auto options = std::make_shared<RemeshArguments>();
   command.argument("MAP", options->map, "map: *.param.ply");
   command.output("MESH", options->output, "the mesh, *.sr.ply");
-  command.level_option(options->remesh);
+  command.remesh_options(options->remesh);
   command.number(
       "--max-error", options->max_error, 0.0, 1.0,
       "instead of a level: the first whose RMS distance over the diagonal is at most X; 0 leaves it to --level");

@@ -110,6 +110,9 @@ std::vector<Axis> code_axes() {
        {kAuto},
        [](const Options& o) { return integer_or_auto(o.remesh.level, RemeshOptions::kAutoLevel); },
        [](Options& o, const Value& v) { o.remesh.level = integer_or_auto(v, RemeshOptions::kAutoLevel); }},
+      {"positions", StageKind::Remesh, Kind::Word, 0, 0, words_of(kPositions, positions_name),
+       [](const Options& o) { return Value(positions_name(o.remesh.positions)); },
+       [](Options& o, const Value& v) { o.remesh.positions = value_of(kPositions, positions_name, v); }},
       {"wavelet", StageKind::Encode, Kind::Word, 0, 0, words_of(kWavelets, wavelet_name),
        [](const Options& o) { return Value(wavelet_name(o.encode.wavelet)); },
        [](Options& o, const Value& v) { o.encode.wavelet = wavelet_of(word(v)); }},
@@ -229,7 +232,8 @@ bool Axis::applies_to(const std::string& method) const {
   if (text == "method" || text == "samples" || text == "seed") return true;
   if (is_anchor(method)) return false;
   if (text == "weights" && method == method_name(Method::Hybrid)) return true;
-  return (text != "objective" && text != "weights" && text != "corners" && text != "relaxations") || method == method_name(Method::Gsp);
+  return (text != "objective" && text != "weights" && text != "corners" && text != "relaxations") ||
+         method == method_name(Method::Gsp);
 }
 
 const std::vector<Axis>& axes() {

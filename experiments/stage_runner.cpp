@@ -150,8 +150,9 @@ class Runner {
                       {"remesh_backward", remesh.distance.rms_backward},
                       {"remesh_hausdorff", remesh.distance.hausdorff},
                       {"ceiling_db", remesh.distance.psnr_db}};
-    result.artefacts["remesh"] =
-        keep_artefact(store_, ".sr.ply", [&](const std::string& path) { write_semiregular(path, remesh.mesh); });
+    result.artefacts["remesh"] = keep_artefact(store_, ".sr.ply", [&](const std::string& path) {
+      write_semiregular(path, remesh.mesh, {std::string("positions ") + positions_name(cell.options.remesh.positions)});
+    });
   }
 
   void encode_stage(const PlannedCell& cell, StageResult& result) {

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <climits>
+#include <optional>
 #include <string>
 
 #include "mesh/error.h"
 #include "mesh/parallel.h"
 #include "remesh/chart_samples.h"
 #include "remesh/develop.h"
+#include "remesh/fit_positions.h"
 
 namespace gsp {
 
@@ -22,12 +24,26 @@ int chosen_level(const Parameterization& map, const RemeshOptions& options) {
       ++level;
   }
   if (level < 0 || level > kMaxSubdivisionLevel)
-    throw Error(Cause::BadOption, "remeshing level " + std::to_string(level) + " is not in 0.." +
-                                      std::to_string(kMaxSubdivisionLevel));
+    throw Error(Cause::BadOption,
+                "remeshing level " + std::to_string(level) + " is not in 0.." + std::to_string(kMaxSubdivisionLevel));
   // Half-edges of the finest level are counted in int.
   if ((static_cast<long long>(map.base.face_count()) << (2 * level)) > INT_MAX / 3)
     throw Error(Cause::BadOption, "a remesh of level " + std::to_string(level) + " has too many faces to number");
   return level;
+}
+
+/// Steps between vertices at which a fit samples the surface: 4, and more where faces of the input would fall between
+/// samples; fewer where one chart's samples would take too much memory.
+int fit_steps(const Parameterization& map, int level) {
+  constexpr int kLeastSteps = 4, kMostAcrossChart = 2048;
+  constexpr double kSamplesPerFace = 4.0;
+  const int n = 1 << level;
+  const double charts = map.base.face_count();
+  int steps = kLeastSteps;
+  const auto samples = [&] { return 0.5 * charts * n * steps * n * steps; };
+  while (2 * steps * n <= kMostAcrossChart && samples() < kSamplesPerFace * map.surface.face_count()) steps *= 2;
+  while (steps > 1 && steps * n > kMostAcrossChart) steps /= 2;
+  return steps;
 }
 
 /// Faces unfolded at a time by one thread.
@@ -57,13 +73,22 @@ std::array<std::array<int, 2>, 3> lattice_corners(int level, int index) {
   const int n = 1 << level;
   std::array<std::array<int, 2>, 3> c = {{{0, 0}, {n, 0}, {0, n}}};
   for (int l = level - 1; l >= 0; --l) {
-    const auto middle = [&](int a, int b) { return std::array<int, 2>{(c[a][0] + c[b][0]) / 2, (c[a][1] + c[b][1]) / 2}; };
+    const auto middle = [&](int a, int b) {
+      return std::array<int, 2>{(c[a][0] + c[b][0]) / 2, (c[a][1] + c[b][1]) / 2};
+    };
     const auto ab = middle(0, 1), bc = middle(1, 2), ca = middle(2, 0);
     switch ((index >> (2 * l)) & 3) {
-      case 0: c = {c[0], ab, ca}; break;
-      case 1: c = {ab, c[1], bc}; break;
-      case 2: c = {ca, bc, c[2]}; break;
-      default: c = {ab, bc, ca};
+      case 0:
+        c = {c[0], ab, ca};
+        break;
+      case 1:
+        c = {ab, c[1], bc};
+        break;
+      case 2:
+        c = {ca, bc, c[2]};
+        break;
+      default:
+        c = {ab, bc, ca};
     }
   }
   return c;
@@ -80,27 +105,33 @@ Vec3 position(const Mesh& surface, const SurfacePoint& point) {
 /// Remeshing in progress: the finest connectivity, the positions, and what the charts found on their borders.
 class Remesher {
  public:
-  Remesher(const Parameterization& map, int level)
-      : map_(map), level_(level), n_(1 << level), borders_(map.base.twins.size()), gaps_(map.base.faces.size(), 0) {
-    SubdivisionLevel finest = base_level(map.base.vertex_count(), map.base.faces);
-    for (int l = 0; l < level; ++l) finest = subdivide(finest);
-    faces_ = std::move(finest.faces);
-    positions_.assign(finest.vertex_count, Vec3::Zero());
+  Remesher(const Parameterization& map, int level, Positions positions)
+      : map_(map),
+        level_(level),
+        n_(1 << level),
+        steps_(positions == Positions::Fitted ? fit_steps(map, level) : 1),
+        finest_(subdivision_levels(map.base.vertex_count(), map.base.faces, level).back()),
+        borders_(map.base.twins.size()),
+        gaps_(map.base.faces.size(), 0) {
+    if (positions == Positions::Fitted) fit_.emplace(finest_, steps_);
+    positions_.assign(finest_.vertex_count, Vec3::Zero());
     for (int b = 0; b < map.base.vertex_count(); ++b) positions_[b] = map.surface.positions[map.base.vertices[b]];
   }
 
   void sample_chart(int chart, const std::vector<FacePiece>& pieces) {
-    ChartSamples samples(map_, pieces, n_);
+    ChartSamples samples(map_, pieces, n_ * steps_);
     samples.fill_gaps();
+    const auto sample = [&](int i, int j) { return samples.at(steps_ * i, steps_ * j); };
     const std::vector<int> vertices = chart_vertices(chart);
     const auto vertex = [&](int i, int j) { return vertices[lattice_index(n_, i, j)]; };
     for (int j = 1; j < n_; ++j)
-      for (int i = 1; i + j < n_; ++i) set(chart, vertex(i, j), samples.at(i, j));
+      for (int i = 1; i + j < n_; ++i) set(chart, vertex(i, j), sample(i, j));
     for (int s = 1; s < n_; ++s) {
-      borders_[3 * chart].push_back({vertex(s, 0), samples.at(s, 0)});
-      borders_[3 * chart + 1].push_back({vertex(n_ - s, s), samples.at(n_ - s, s)});
-      borders_[3 * chart + 2].push_back({vertex(0, n_ - s), samples.at(0, n_ - s)});
+      borders_[3 * chart].push_back({vertex(s, 0), sample(s, 0)});
+      borders_[3 * chart + 1].push_back({vertex(n_ - s, s), sample(n_ - s, s)});
+      borders_[3 * chart + 2].push_back({vertex(0, n_ - s), sample(0, n_ - s)});
     }
+    if (fit_) integrate(chart, samples);
   }
 
   /// Points on base edges, from whichever side found them better.
@@ -122,15 +153,38 @@ class Remesher {
     return sum;
   }
 
-  SemiregularMesh take() {
-    return {level_, map_.base.vertex_count(), map_.base.faces, std::move(positions_)};
+  void fit() {
+    if (fit_) positions_ = fit_->fit(positions_);
   }
 
+  SemiregularMesh take() { return {level_, map_.base.vertex_count(), map_.base.faces, std::move(positions_)}; }
+
  private:
+  /// The position of a sample. Throws where the chart has none.
+  Vec3 covered(int chart, const SurfacePoint& point) const {
+    if (point.face < 0)
+      throw Error(Cause::InvalidMap, "no face of the surface covers a base face", Element::Face, chart);
+    return position(map_.surface, point);
+  }
+
   void set(int chart, int vertex, const SurfacePoint& point) {
-    if (point.face < 0) throw Error(Cause::InvalidMap, "no face of the surface covers a base face", Element::Face, chart);
+    positions_[vertex] = covered(chart, point);
     if (point.fit < -SurfacePoint::kNear) ++gaps_[chart];
-    positions_[vertex] = position(map_.surface, point);
+  }
+
+  /// Hands the surface over each face of a chart to the fit.
+  void integrate(int chart, const ChartSamples& samples) {
+    std::vector<Vec3> points(static_cast<std::size_t>(steps_ + 1) * (steps_ + 2) / 2);
+    for (int f = 0; f < 1 << (2 * level_); ++f) {
+      const auto c = lattice_corners(level_, f);
+      for (int t = 0; t <= steps_; ++t)
+        for (int s = 0; s + t <= steps_; ++s) {
+          const int r = steps_ - s - t;
+          const int i = r * c[0][0] + s * c[1][0] + t * c[2][0], j = r * c[0][1] + s * c[1][1] + t * c[2][1];
+          points[lattice_index(steps_, s, t)] = covered(chart, samples.at(i, j));
+        }
+      fit_->add_face((chart << (2 * level_)) + f, points);
+    }
   }
 
   /// #samples, the remesh's vertex at each lattice point of a chart.
@@ -138,7 +192,7 @@ class Remesher {
     std::vector<int> vertices(static_cast<std::size_t>(n_ + 1) * (n_ + 2) / 2, -1);
     for (int f = 0; f < 1 << (2 * level_); ++f) {
       const auto corners = lattice_corners(level_, f);
-      const Triangle& face = faces_[(static_cast<std::size_t>(chart) << (2 * level_)) + f];
+      const Triangle& face = finest_.faces[(static_cast<std::size_t>(chart) << (2 * level_)) + f];
       for (int k = 0; k < 3; ++k) vertices[lattice_index(n_, corners[k][0], corners[k][1])] = face[k];
     }
     return vertices;
@@ -146,7 +200,9 @@ class Remesher {
 
   const Parameterization& map_;
   int level_, n_;
-  std::vector<Triangle> faces_;
+  int steps_;  ///< samples between neighbouring vertices, for the fit
+  SubdivisionLevel finest_;
+  std::optional<PositionFit> fit_;
   std::vector<Vec3> positions_;
   struct BorderSample {
     int vertex;
@@ -158,6 +214,8 @@ class Remesher {
 
 }  // namespace
 
+const char* positions_name(Positions positions) { return positions == Positions::Fitted ? "fitted" : "sampled"; }
+
 SemiregularMesh remesh(const Parameterization& map, const RemeshOptions& options, Progress& progress) {
   require_well_formed(map);
   if (map.base.faces.empty()) throw Error(Cause::InvalidMap, "a map without base faces has nothing to remesh");
@@ -165,7 +223,7 @@ SemiregularMesh remesh(const Parameterization& map, const RemeshOptions& options
   progress.report("remesh", 0.0);
   const std::vector<std::vector<FacePiece>> pieces = pieces_by_chart(map);
   progress.report("remesh", 0.3);
-  Remesher remesher(map, level);
+  Remesher remesher(map, level, options.positions);
   parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) remesher.sample_chart(static_cast<int>(c), pieces[c]);
   });
@@ -174,6 +232,7 @@ SemiregularMesh remesh(const Parameterization& map, const RemeshOptions& options
   if (remesher.gaps() > 0)
     progress.note(std::to_string(remesher.gaps()) +
                   " points of the remesh lie in no face of the map, which has folds; the nearest place was taken");
+  remesher.fit();
   progress.report("remesh", 1.0);
   return remesher.take();
 }

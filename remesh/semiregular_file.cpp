@@ -58,10 +58,13 @@ Triangle base_face(const std::vector<Triangle>& faces, int level, std::int64_t f
 
 }  // namespace
 
-void write_semiregular(const std::string& path, const SemiregularMesh& mesh) {
-  write_mesh(path, mesh.mesh(),
-             {kSignature, "level " + std::to_string(mesh.level), "base_vertices " + std::to_string(mesh.base_vertices),
-              "base_faces " + std::to_string(mesh.base_faces.size())});
+void write_semiregular(const std::string& path, const SemiregularMesh& mesh,
+                       const std::vector<std::string>& provenance) {
+  std::vector<std::string> comments = {kSignature, "level " + std::to_string(mesh.level),
+                                       "base_vertices " + std::to_string(mesh.base_vertices),
+                                       "base_faces " + std::to_string(mesh.base_faces.size())};
+  comments.insert(comments.end(), provenance.begin(), provenance.end());
+  write_mesh(path, mesh.mesh(), comments);
 }
 
 SemiregularMesh read_semiregular(const std::string& path) {

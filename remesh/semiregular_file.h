@@ -1,14 +1,17 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "remesh/semiregular.h"
 
 namespace gsp {
 
 /// Writes `*.sr.ply`: a plain PLY (binary little-endian, double) with comments `gsp semiregular 1`, `level L`,
-/// `base_vertices B`, `base_faces F`. Throws Error(CannotWrite).
-void write_semiregular(const std::string& path, const SemiregularMesh& mesh);
+/// `base_vertices B`, `base_faces F` and then `provenance`, one "key value" a line, which says how the mesh was made
+/// and is not read back. Throws Error(CannotWrite).
+void write_semiregular(const std::string& path, const SemiregularMesh& mesh,
+                       const std::vector<std::string>& provenance = {});
 
 /// Reads what `write_semiregular` wrote; checks that the faces are those of the levels that the comments name.
 /// Throws the errors of `read_mesh` and NoSubdivisionConnectivity.

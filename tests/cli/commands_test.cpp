@@ -5,6 +5,7 @@
 
 #include "cli.h"
 #include "mesh/io.h"
+#include "mesh/read_file.h"
 #include "mesh/shapes.h"
 #include "temporary_folder.h"
 
@@ -132,9 +133,20 @@ TEST_CASE("the chain of commands: surface, map, remesh, stream, prefix, distance
   CHECK(size_of(folder.file("faces.csv")) > 1000);
   CHECK(size_of(folder.file("faces.ply")) > 1000);
 
-  const Ran sampled = gsp_run({"remesh", map, "-o", remeshed, "--json"});
-  REQUIRE(sampled.status == 0);
-  CHECK(json::parse(sampled.out)["faces"] == 76 * 256);
+  const auto remesh_error = [&](const std::string& positions) {
+    const Ran ran = gsp_run({"remesh", map, "-o", remeshed, "--positions", positions, "--json"});
+    REQUIRE(ran.status == 0);
+    CHECK(json::parse(ran.out)["faces"] == 76 * 256);
+    CHECK(json::parse(ran.out)["positions"] == positions);
+    // Comments are at the head of the file.
+    CHECK(read_file(remeshed).substr(0, 400).find("comment positions " + positions + "\n") != std::string::npos);
+    const Ran distance = gsp_run({"distance", mesh, remeshed, "--samples", "20000", "--json"});
+    REQUIRE(distance.status == 0);
+    return json::parse(distance.out)["rms"].get<double>();
+  };
+  const double sampled = remesh_error("sampled"), fitted = remesh_error("fitted");
+  CHECK(fitted < 0.8 * sampled);
+  CHECK(gsp_run({"remesh", map, "-o", remeshed, "--positions", "neither"}).status == 2);
 
   const Ran coded = gsp_run({"encode", remeshed, "-o", stream, "--json"});
   REQUIRE(coded.status == 0);

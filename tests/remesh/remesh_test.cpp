@@ -9,6 +9,7 @@
 #include "mesh/random.h"
 #include "mesh/shapes.h"
 #include "remesh/develop.h"
+#include "tests/remesh/worst.h"
 #include "tests/support/exact_maps.h"
 
 using namespace gsp;
@@ -18,7 +19,7 @@ namespace {
 SemiregularMesh silent_remesh(const Parameterization& map, int level) {
   Progress progress;
   progress.on_note([](const std::string& note) { FAIL_CHECK(note); });
-  return remesh(map, {level}, progress);
+  return remesh(map, {level, Positions::Sampled}, progress);
 }
 
 Mesh tent(int valence, int level) {
@@ -27,15 +28,8 @@ Mesh tent(int valence, int level) {
   return disc;
 }
 
-double worst(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  REQUIRE(a.size() == b.size());
-  double worst = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, (a[i] - b[i]).norm());
-  return worst;
-}
-
-/// The exact inverse by search: each point of the remesh of `level` is looked for in every face of `map`, whose faces must
-/// all be given in charts that hold them but for what jitter moved across an edge.
+/// The exact inverse by search: each point of the remesh of `level` is looked for in every face of `map`, whose faces
+/// must all be given in charts that hold them but for what jitter moved across an edge.
 Vec3 inverse_by_search(const Parameterization& map, int chart, Complex z) {
   double best = -1e9;
   Vec3 found = Vec3::Zero();
@@ -88,8 +82,8 @@ std::vector<std::pair<int, Complex>> domain_places(const Mesh& base, int level) 
   return places;
 }
 
-/// A flat torus of m x n base rhombi whose surface is a lattice of spacing 1/q sheared by `shear`: each face holds no lattice
-/// point inside, yet reaches over about 2·shear/q base triangles.
+/// A flat torus of m x n base rhombi whose surface is a lattice of spacing 1/q sheared by `shear`: each face holds no
+/// lattice point inside, yet reaches over about 2·shear/q base triangles.
 struct ShearedTorus {
   int m, n, q, shear;
   Parameterization map;
@@ -145,7 +139,8 @@ struct ShearedTorus {
 };
 
 std::vector<Mesh> bases() {
-  return {shapes::tetrahedron(), shapes::octahedron(), shapes::icosahedron(), shapes::lattice_torus(4, 5), shapes::grid(2, 3)};
+  return {shapes::tetrahedron(), shapes::octahedron(), shapes::icosahedron(), shapes::lattice_torus(4, 5),
+          shapes::grid(2, 3)};
 }
 
 }  // namespace
@@ -265,7 +260,7 @@ TEST_CASE("folds are bridged, and told") {
   exact_maps::jitter(map, 1.2, 3, 3);
   REQUIRE(check_map(map).flipped_faces > 0);
   Progress progress;
-  const SemiregularMesh remeshed = remesh(map, {4}, progress);
+  const SemiregularMesh remeshed = remesh(map, {4, Positions::Sampled}, progress);
   for (const Vec3& p : remeshed.positions) {
     CHECK(p.allFinite());
     CHECK((p.norm() < 1.0 + 1e-12 && p.norm() > 0.7));

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "remesh/semiregular.h"
+
+namespace gsp {
+
+/// The surface over the domain, integrated against the hat functions of one level, and the vertex positions that are
+/// nearest to it in the mean square: the L2 projection of the map's inverse onto the remesh's piecewise linear
+/// functions. A surface that bends alike in all directions comes out four times nearer than where its points are taken
+/// as vertices, a saddle no nearer.
+///
+/// Positions minimise, over the boundary's vertices, the integral along the boundary curves; then, over all others,
+/// that over the faces with the boundary held. So boundary curves are those of the boundary alone, and shared by
+/// whatever lies beside them. Integrals are over the domain: each face of the level counts the same.
+///
+/// Where the surface turns within a face or two the nearest faces may fold. Of a face that would so turn against the
+/// surface over it, and does not with its samples, the corners stay samples, and the others are fitted to that.
+class PositionFit {
+ public:
+  /// `steps` >= 1: points of the quadrature along each side of a face, less one. `finest` is kept by reference.
+  PositionFit(const SubdivisionLevel& finest, int steps);
+
+  /// The surface over face `face`: its points at the weights (steps - s - t, s, t) / steps of the corners, at
+  /// `lattice_index(steps, s, t)`. Faces may be added from several threads at once.
+  void add_face(int face, const std::vector<Vec3>& points);
+
+  /// #V. Starts from `sampled`, #V: the surface over the vertices. A rigid motion of all points moves the result, up to
+  /// rounding. Every face must have been added. O(V) for a given precision and each round of turned faces, one thread.
+  std::vector<Vec3> fit(const std::vector<Vec3>& sampled) const;
+
+ private:
+  /// Marks the corners of faces that turned; false where none is new.
+  bool hold_turned(const std::vector<Vec3>& sampled, const std::vector<Vec3>& positions, std::vector<char>& held) const;
+
+  const SubdivisionLevel& finest_;
+  int steps_;
+  std::vector<Vec3> face_areas_;                   ///< #F, vector area of the surface over the face
+  std::vector<std::array<Vec3, 3>> face_moments_;  ///< #F, by corner
+  std::vector<int> boundary_edges_;
+  std::vector<int> place_;                         ///< #E, of an edge among the boundary's, -1 inside
+  std::vector<std::array<Vec3, 2>> edge_moments_;  ///< of boundary edges, by end in the direction of their face
+};
+
+}  // namespace gsp
