@@ -229,10 +229,10 @@ void Command::axis_word(const std::string& name, ParameterizeOptions& options, c
 
 void Command::parameterize_options(ParameterizeOptions& options) {
   // The first option is taken first, wherever it stands on the line, so all others override it.
-  const std::vector<std::string> presets = {"default", "paper"};
+  const std::vector<std::string> presets = preset_words();
   app_->add_option_function<std::string>(
           "--preset",
-          [&options](const std::string& word) { options = word == "paper" ? paper_options() : ParameterizeOptions(); },
+          [&options](const std::string& word) { options = preset_options(word); },
           fmt::format("what the options below are where they are not given: paper is its exact method [{}; {}]",
                       presets.front(), fmt::join(presets, ", ")))
       ->check([presets](const std::string& word) { return refusal(word, presets); })

@@ -212,6 +212,14 @@ Method method_of(const std::string& word) {
   throw Error(Cause::BadOption, "unknown method " + word);
 }
 
+std::vector<std::string> preset_words() { return {"default", "paper"}; }
+
+ParameterizeOptions preset_options(const std::string& word) {
+  if (word == "default") return {};
+  if (word == "paper") return paper_options();
+  throw Error(Cause::BadOption, "unknown preset " + word);
+}
+
 std::string Axis::refusal(const AxisValue& value) const {
   const std::string text = to_string(value);
   if (!words.empty() && std::find(words.begin(), words.end(), text) != words.end()) return {};

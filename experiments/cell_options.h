@@ -40,6 +40,11 @@ bool is_anchor(const std::string& method);
 /// The map that a method's name stands for. Throws Error(BadOption) for anchors and unknown words.
 Method method_of(const std::string& word);
 
+/// "default" and "paper": what options of the map are where none is given.
+std::vector<std::string> preset_words();
+/// The options that one stands for. Throws Error(BadOption) for unknown words.
+ParameterizeOptions preset_options(const std::string& word);
+
 /// One value of one option: an integer, a number, or a word ("auto" where the option has it).
 using AxisValue = std::variant<std::int64_t, double, std::string>;
 

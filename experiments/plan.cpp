@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 #include "experiments/algorithm_version.h"
 #include "experiments/content_hash.h"
@@ -17,28 +18,36 @@ std::string budget_text(const CellOptions& options) {
   return text;
 }
 
-// The method and, of the options, those that vary between the recipe's cells of that method.
+// The method and, of the options, those that vary between the cells of that method on some model. What differs from
+// model to model only, as a base size for each, tells no two curves of a model apart, and curves compare by label.
 class Labels {
  public:
   explicit Labels(const Recipe& recipe) {
+    std::map<std::tuple<std::string, std::string, std::string>, std::set<std::string>> values;
     for (const RecipeBlock& block : recipe.blocks)
-      for (const CellOptions& cell : block.cells) {
-        for (const Axis& axis : axes()) values_[cell.method][axis.name].insert(to_string(axis.get(cell)));
-        values_[cell.method]["budgets"].insert(budget_text(cell));
-      }
+      for (const std::string& model : block.models)
+        for (const CellOptions& cell : block.cells) {
+          const auto add = [&](const std::string& option, const std::string& value) {
+            std::set<std::string>& found = values[{model, cell.method, option}];
+            found.insert(value);
+            if (found.size() > 1) varying_.insert({cell.method, option});
+          };
+          for (const Axis& axis : axes()) add(axis.name, to_string(axis.get(cell)));
+          add("budgets", budget_text(cell));
+        }
   }
 
   std::string of(const CellOptions& options) const {
-    const auto& values = values_.at(options.method);
     std::string label = options.method;
     for (const Axis& axis : axes())
-      if (values.at(axis.name).size() > 1) label += ' ' + std::string(axis.name) + '=' + to_string(axis.get(options));
-    if (values.at("budgets").size() > 1) label += ' ' + budget_text(options);
+      if (varying_.count({options.method, axis.name}))
+        label += ' ' + std::string(axis.name) + '=' + to_string(axis.get(options));
+    if (varying_.count({options.method, "budgets"})) label += ' ' + budget_text(options);
     return label;
   }
 
  private:
-  std::map<std::string, std::map<std::string, std::set<std::string>>> values_;
+  std::set<std::pair<std::string, std::string>> varying_;  ///< method and option
 };
 
 std::map<StageKind, std::string> stage_keys(const CellOptions& options, const std::string& surface) {

@@ -29,6 +29,8 @@ constexpr const char* kFurther[] = {"#6a3d9a", "#1b7f5c", "#c77a00", "#00829b", 
                                     "#5d7a00", "#7a5230", "#3b4cc0", "#d1495b", "#66a182"};
 // More curves than this leave no room for a key inside the plot, nor for ceilings in it.
 constexpr std::size_t kFewCurves = 6;
+// Pixels of a figure of several panels.
+constexpr int kPanelWidth = 640, kKeyWidth = 340;
 
 // Bytes from the first point to the last that any progressive method has: the anchors' tails would only shrink the
 // rest.
@@ -75,27 +77,74 @@ std::string panel_data(const std::vector<CurvePoint>& points, std::size_t panel)
   return script;
 }
 
-std::string panel_commands(const PlotPanel& panel, std::size_t index) {
+std::vector<std::string> curve_names(const std::vector<PlotPanel>& panels) {
+  std::vector<std::string> names;
+  for (const PlotPanel& panel : panels)
+    for (const CurveSeries& curve : by_method(panel.second))
+      if (std::find(names.begin(), names.end(), curve.name) == names.end()) names.push_back(curve.name);
+  return names;
+}
+
+// How the curves of a figure look, the same in each of its panels.
+class Looks {
+ public:
+  explicit Looks(std::vector<std::string> names) : names_(std::move(names)), colors_(method_colors(names_)) {}
+  const std::vector<std::string>& names() const { return names_; }
+  std::string curve(const std::string& name) const {
+    const std::size_t i = place(name);
+    // Discs, then squares, triangles, rhombs where colours come again.
+    constexpr int kPoints[] = {7, 5, 9, 13};
+    const auto again = std::count(colors_.begin(), colors_.begin() + static_cast<std::ptrdiff_t>(i), colors_[i]);
+    return fmt::format("with linespoints lw {} pt {} ps {} lc rgb '{}'", i == 0 ? 4 : 2,
+                       kPoints[static_cast<std::size_t>(again) % std::size(kPoints)], again ? 1.0 : 0.5, colors_[i]);
+  }
+  std::string ceiling(const std::string& name) const {
+    return fmt::format("with lines dt 2 lw 1 lc rgb '{}'", colors_[place(name)]);
+  }
+
+ private:
+  std::size_t place(const std::string& name) const {
+    return static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
+  }
+  std::vector<std::string> names_, colors_;
+};
+
+std::string panel_commands(const PlotPanel& panel, std::size_t index, const Looks& looks) {
   const auto& [model, points] = panel;
   const std::vector<CurveSeries> curves = by_method(points);
-  std::vector<std::string> names;
-  for (const CurveSeries& curve : curves) names.push_back(curve.name);
-  const std::vector<std::string> colors = method_colors(names);
   std::string lines;
   for (std::size_t m = 0; m < curves.size(); ++m)
-    lines +=
-        fmt::format("{}{} using 1:2 with linespoints lw {} pt 7 ps 0.5 lc rgb '{}' title {}", m ? ", \\\n     " : "",
-                    data_name(index, m), m == 0 ? 4 : 2, colors[m], gnuplot_quoted(names[m]));
+    lines += fmt::format("{}{} using 1:2 {} title {}", m ? ", \\\n     " : "", data_name(index, m),
+                         looks.curve(curves[m].name), gnuplot_quoted(curves[m].name));
   const bool few = curves.size() <= kFewCurves;
-  for (std::size_t m = 0; m < curves.size(); ++m)
-    if (const double ceiling = ceiling_db(curves[m].points); ceiling > 0.0)
-      lines += fmt::format(", \\\n     {:.4f} with lines dt 2 lw 1 lc rgb '{}' {}", ceiling, colors[m],
-                           few ? "title " + gnuplot_quoted(names[m] + " remesh (ceiling)") : "notitle");
+  for (const CurveSeries& curve : curves)
+    if (const double ceiling = ceiling_db(curve.points); ceiling > 0.0)
+      lines += fmt::format(", \\\n     {:.4f} {} {}", ceiling, looks.ceiling(curve.name),
+                           few ? "title " + gnuplot_quoted(curve.name + " remesh (ceiling)") : "notitle");
   const auto [low, high] = byte_range(points);
-  return fmt::format(
-      "set title {} noenhanced\nset key {}\nset xtics ({})\nset xrange [{:.0f}:{:.0f}]\nset yrange [*:{}]\nplot {}\n",
-      gnuplot_quoted(model), few ? "inside bottom right" : "outside right center", byte_tics(low, high), low, high,
-      highest_shown(points), lines);
+  return fmt::format("set title {} noenhanced\nset xtics ({})\nset xrange [{:.0f}:{:.0f}]\nset yrange [*:{}]\nplot {}\n",
+                     gnuplot_quoted(model), byte_tics(low, high), low, high, highest_shown(points), lines);
+}
+
+// Panels side by side and one key for all of them at the right.
+std::string panels_with_key(const std::vector<PlotPanel>& panels, const Looks& looks) {
+  const double width = kPanelWidth * static_cast<double>(panels.size()) + kKeyWidth;
+  std::string commands = "set multiplot\nunset key\n";
+  bool ceilings = false;
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    commands += fmt::format("set origin {:.5f},0\nset size {:.5f},1\n{}", i * kPanelWidth / width, kPanelWidth / width,
+                            panel_commands(panels[i], i, looks));
+    for (const CurveSeries& curve : by_method(panels[i].second)) ceilings = ceilings || ceiling_db(curve.points) > 0.0;
+  }
+  std::string entries;
+  for (const std::string& name : looks.names())
+    entries += fmt::format("{}NaN {} title {}", entries.empty() ? "" : ", ", looks.curve(name), gnuplot_quoted(name));
+  if (ceilings) entries += ", NaN with lines dt 2 lw 1 lc rgb '#555555' title 'dashed: remesh (ceiling)'";
+  // A plot of nothing holds the key.
+  return commands + fmt::format("set origin {:.5f},0\nset size {:.5f},1\n", 1.0 - kKeyWidth / width, kKeyWidth / width) +
+         "unset logscale\nunset border\nunset tics\nunset grid\nunset title\nunset xlabel\nunset ylabel\n"
+         "set key center center\nset xrange [0:1]\nset yrange [0:1]\nplot " +
+         entries + "\nunset multiplot\n";
 }
 
 }  // namespace
@@ -103,27 +152,34 @@ std::string panel_commands(const PlotPanel& panel, std::size_t index) {
 std::vector<std::string> method_colors(const std::vector<std::string>& methods) {
   std::vector<std::string> colors;
   std::size_t next = 0;
-  for (const std::string& method : methods) {
+  for (const std::string& name : methods) {
+    // A method with options ("gsp gamma=2") has its method's colour where it is the first of them.
+    const std::string method = name.substr(0, name.find(' '));
     const auto known =
         std::find_if(std::begin(kStyles), std::end(kStyles), [&](const Style& s) { return method == s.method; });
-    colors.push_back(known != std::end(kStyles) ? known->color : kFurther[next++ % std::size(kFurther)]);
+    const bool taken = known == std::end(kStyles) ||
+                       std::find(colors.begin(), colors.end(), known->color) != colors.end();
+    colors.push_back(taken ? kFurther[next++ % std::size(kFurther)] : known->color);
   }
   return colors;
 }
 
 std::string plot_script(const std::string& name, const std::vector<PlotPanel>& panels) {
-  std::string setup =
-      "set logscale x 2\nset grid back lt 1 lw 1 lc rgb '#e4e4e4'\nset key Left reverse noenhanced\n"
+  std::string data;
+  for (std::size_t i = 0; i < panels.size(); ++i) data += panel_data(panels[i].second, i);
+  // Set anew for each terminal, since a key of its own changes them.
+  const std::string setup =
+      "reset\nset logscale x 2\nset grid back lt 1 lw 1 lc rgb '#e4e4e4'\nset key Left reverse noenhanced\n"
       "set xlabel 'bytes'\nset ylabel 'PSNR in dB (diagonal / RMS)'\n";
-  std::string commands;
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    setup += panel_data(panels[i].second, i);
-    commands += panel_commands(panels[i], i);
-  }
-  const bool several = panels.size() > 1;
-  const int width = several ? 640 * static_cast<int>(panels.size()) : 900;
-  if (several) commands = fmt::format("set multiplot layout 1,{}\n{}unset multiplot\n", panels.size(), commands);
-  return figure_script(name, setup, commands, width, 600);
+  const Looks looks(curve_names(panels));
+  if (panels.size() > 1)
+    return figure_script(name, data, setup + panels_with_key(panels, looks),
+                         kPanelWidth * static_cast<int>(panels.size()) + kKeyWidth, 600);
+  const bool few = looks.names().size() <= kFewCurves;
+  const std::string key = few ? "set key inside bottom right\n" : "set key outside right center\n";
+  std::string commands = setup + key;
+  for (const PlotPanel& panel : panels) commands += panel_commands(panel, 0, looks);
+  return figure_script(name, data, commands, 900, 600);
 }
 
 std::vector<std::string> plot(const std::string& folder, const std::string& name,

@@ -11,7 +11,7 @@ namespace gsp {
 /// One panel: a model and its points.
 using PlotPanel = std::pair<std::string, std::vector<CurvePoint>>;
 
-/// A colour for each method, as #rrggbb: the methods' own, and for other names, such as those of settings, further ones
+/// A colour for each method, as #rrggbb: the method's own for its first label ("gsp", "gsp gamma=2"), further ones for others
 /// in turn.
 std::vector<std::string> method_colors(const std::vector<std::string>& methods);
 

@@ -1,6 +1,8 @@
 #include "experiments/recipe.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fnmatch.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -111,21 +113,23 @@ class AxisReader {
   std::set<AxisValue> seen_;
 };
 
-// The keys of a table; a block's come before those of the file.
+// The keys of a model's own table, of its block and of the file: the first that has one counts.
 struct Layers {
+  const toml::table* own;
   const toml::table* block;
   const toml::table& file;
 
   const toml::node* get(const std::string& key) const {
-    const toml::node* own = block ? block->get(key) : nullptr;
-    return own ? own : file.get(key);
+    for (const toml::table* table : {own, block})
+      if (const toml::node* node = table ? table->get(key) : nullptr) return node;
+    return file.get(key);
   }
 };
 
-void require_known_keys(const toml::table& table, bool block) {
-  std::vector<std::string> known = {"models", "budgets"};
+void require_known_keys(const toml::table& table, const std::vector<std::string>& further) {
+  std::vector<std::string> known = {"budgets", "preset"};
+  known.insert(known.end(), further.begin(), further.end());
   for (const Axis& axis : axes()) known.emplace_back(axis.name);
-  if (!block) known.insert(known.end(), {"name", "description", "block"});
   for (const auto& [key, value] : table) {
     const std::string name(key.str());
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
@@ -159,28 +163,116 @@ std::vector<std::size_t> budgets(const Layers& layers) {
   return sizes;
 }
 
-std::vector<std::string> models(const Layers& layers, long long block_line) {
-  const toml::node* node = layers.get("models");
-  if (!node) refuse("there are no models: models = [\"data/*.ply\", \"shape:torus\"]", block_line);
+// One entry of `models`: a pattern, or a table that holds it as `path` beside keys for its surfaces alone.
+struct ModelEntry {
+  std::string pattern;
+  const toml::table* own;
+  long long line;
+};
+
+ModelEntry model_entry(const toml::node& node) {
+  const toml::table* own = node.as_table();
+  if (own) require_known_keys(*own, {"path"});
+  const toml::node* pattern = own ? own->get("path") : &node;
+  if (!pattern || !pattern->is_string())
+    refuse("a model is no pattern of files, no shape:NAME and no table with one as path", line_of(node));
+  return {pattern->ref<std::string>(), own, line_of(*pattern)};
+}
+
+std::vector<ModelEntry> model_entries(const toml::table* block, const toml::table& file) {
+  std::vector<ModelEntry> entries;
+  const toml::node* node = Layers{nullptr, block, file}.get("models");
+  if (!node) return entries;
   const toml::array* list = node->as_array();
   if (!list || list->empty()) refuse("models is no list of patterns: the sweep would have no cell", line_of(*node));
-  std::vector<std::string> found;
+  const bool above = !block || !block->get("models");
   for (const toml::node& element : *list) {
-    if (!element.is_string()) refuse("a model is no pattern of files and no shape:NAME", line_of(element));
-    try {
-      for (std::string& source : matching_models(element.ref<std::string>()))
-        if (std::find(found.begin(), found.end(), source) == found.end()) found.push_back(std::move(source));
-    } catch (const Error& error) {
-      refuse(error.what(), line_of(element));
-    }
+    entries.push_back(model_entry(element));
+    if (!block || !above || !entries.back().own) continue;
+    for (const auto& [key, value] : *entries.back().own)
+      if (const toml::node* both = block->get(key.str()))
+        refuse(fmt::format("{} is set here and for {} above (line {}): give the block models of its own",
+                           std::string(key.str()), entries.back().pattern, line_of(value)),
+               line_of(*both));
   }
+  return entries;
+}
+
+// A surface and the keys that are its alone, null for none.
+struct Surface {
+  std::string source;
+  const toml::table* own;
+};
+
+// A surface that is named twice is one, with the keys of the entry that has some.
+void add_surface(std::vector<Surface>& surfaces, Surface surface, long long line) {
+  const auto same = std::find_if(surfaces.begin(), surfaces.end(),
+                                 [&](const Surface& other) { return other.source == surface.source; });
+  if (same == surfaces.end()) {
+    surfaces.push_back(std::move(surface));
+  } else if (surface.own) {
+    if (same->own) refuse(surface.source + " has keys twice; a key takes a list of values", line);
+    same->own = surface.own;
+  }
+}
+
+std::vector<Surface> found_surfaces(const std::vector<ModelEntry>& entries) {
+  std::vector<Surface> surfaces;
+  for (const ModelEntry& entry : entries) try {
+      for (std::string& source : matching_models(entry.pattern))
+        add_surface(surfaces, {std::move(source), entry.own}, entry.line);
+    } catch (const Error& error) {
+      if (error.cause() != Cause::CannotOpen) refuse(error.what(), entry.line);
+      refuse(fmt::format("{}; --models takes other surfaces", error.what()), entry.line);
+    }
+  return surfaces;
+}
+
+std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+
+// The surfaces given instead; one that is named as one of the recipe's keeps that one's keys.
+std::vector<Surface> replacing_surfaces(const std::vector<std::string>& instead,
+                                        const std::vector<ModelEntry>& entries) {
+  std::vector<Surface> surfaces;
+  for (const std::string& pattern : instead)
+    for (const std::string& source : matching_models(pattern)) {
+      const auto entry = std::find_if(entries.begin(), entries.end(), [&](const ModelEntry& e) {
+        return e.own && ::fnmatch(stem(e.pattern).c_str(), stem(source).c_str(), 0) == 0;
+      });
+      const auto same = [&](const Surface& surface) { return surface.source == source; };
+      if (std::none_of(surfaces.begin(), surfaces.end(), same))
+        surfaces.push_back({source, entry == entries.end() ? nullptr : entry->own});
+    }
+  return surfaces;
+}
+
+// What the map's options are where no other key sets them.
+std::vector<ParameterizeOptions> presets(const Layers& layers) {
+  const toml::node* node = layers.get("preset");
+  if (!node) return {ParameterizeOptions()};
+  std::vector<ParameterizeOptions> found;
+  const auto add = [&](const toml::node& word) {
+    const std::vector<std::string> words = preset_words();
+    if (!word.is_string() || std::find(words.begin(), words.end(), word.ref<std::string>()) == words.end())
+      refuse(fmt::format("preset is none of {}", fmt::join(words, ", ")), line_of(word));
+    found.push_back(preset_options(word.ref<std::string>()));
+  };
+  const toml::array* list = node->as_array();
+  if (!list) add(*node);
+  if (list && list->empty()) refuse("preset is an empty list: the sweep would have no cell", line_of(*node));
+  if (list)
+    for (const toml::node& word : *list) add(word);
   return found;
 }
 
 // All combinations, the first axis varying slowest; those that differ only in what does not apply are one.
 std::vector<CellOptions> combinations(const Layers& layers, long long line) {
-  std::vector<CellOptions> cells(1);
-  cells.front().budgets = budgets(layers);
+  std::vector<CellOptions> cells;
+  for (const ParameterizeOptions& preset : presets(layers)) {
+    CellOptions& cell = cells.emplace_back();
+    cell.parameterize = preset;
+    cell.budgets = budgets(layers);
+  }
   for (const Axis& axis : axes()) {
     const toml::node* node = layers.get(axis.name);
     if (!node) continue;
@@ -211,18 +303,28 @@ toml::table parse(const std::string& path) {
   }
 }
 
-Recipe recipe_of(const toml::table& file, const std::string& stem, const std::vector<std::string>& instead) {
+// The cells of one block; surfaces that follow each other with the same keys share a RecipeBlock.
+void add_block(Recipe& recipe, const toml::table* block, const toml::table& file, long long line,
+               const std::vector<std::string>& instead) {
+  const std::vector<ModelEntry> entries = model_entries(block, file);
+  if (entries.empty() && instead.empty())
+    refuse("there are no models: models = [\"data/*.ply\", \"shape:torus\"]", line);
+  const std::vector<Surface> surfaces = instead.empty() ? found_surfaces(entries) : replacing_surfaces(instead, entries);
+  const toml::table* own = nullptr;
+  for (const Surface& surface : surfaces) {
+    if (&surface == &surfaces.front() || surface.own != own)
+      recipe.blocks.push_back({{}, combinations({surface.own, block, file}, line)});
+    own = surface.own;
+    recipe.blocks.back().models.push_back(surface.source);
+  }
+}
+
+Recipe recipe_of(const toml::table& file, const std::string& otherwise, const std::vector<std::string>& instead) {
   Recipe recipe;
-  recipe.name = text(file, "name", stem);
+  recipe.name = text(file, "name", otherwise);
   recipe.description = text(file, "description", "");
-  require_known_keys(file, false);
-  const auto add = [&](const toml::table* block, long long line) {
-    const Layers layers{block, file};
-    std::vector<std::string> sources;
-    for (const std::string& pattern : instead)
-      for (std::string& source : matching_models(pattern)) sources.push_back(std::move(source));
-    recipe.blocks.push_back({instead.empty() ? models(layers, line) : sources, combinations(layers, line)});
-  };
+  require_known_keys(file, {"models", "name", "description", "block"});
+  const auto add = [&](const toml::table* block, long long line) { add_block(recipe, block, file, line, instead); };
   const toml::node* blocks = file.get("block");
   if (!blocks) {
     add(nullptr, 1);
@@ -232,7 +334,7 @@ Recipe recipe_of(const toml::table& file, const std::string& stem, const std::ve
   if (!list || list->empty()) refuse("block is no list of tables: write [[block]]", line_of(*blocks));
   for (const toml::node& block : *list) {
     if (!block.is_table()) refuse("block is no table: write [[block]]", line_of(block));
-    require_known_keys(*block.as_table(), true);
+    require_known_keys(*block.as_table(), {"models"});
     add(block.as_table(), line_of(block));
   }
   return recipe;
@@ -242,7 +344,7 @@ Recipe recipe_of(const toml::table& file, const std::string& stem, const std::ve
 
 Recipe read_recipe(const std::string& path, const std::vector<std::string>& models) {
   try {
-    return recipe_of(parse(path), std::filesystem::path(path).stem().string(), models);
+    return recipe_of(parse(path), stem(path), models);
   } catch (const Error& error) {
     if (error.cause() == Cause::CannotOpen) throw;
     throw error.within(path);

@@ -61,9 +61,11 @@ std::string fewer_or_more(double saved) {
                      saved >= 0.0 ? "fewer" : "more");
 }
 
-/// "−41%" with the minus sign of typography.
+/// "−41%" with the minus sign of typography; no sign before a zero.
 std::string signed_percent(double value, int digits) {
-  return fmt::format("{}{:.{}f}%", value < 0.0 ? "−" : "+", std::abs(value), digits);
+  const std::string size = fmt::format("{:.{}f}%", std::abs(value), digits);
+  const bool zero = size.find_first_of("123456789") == std::string::npos;
+  return (zero ? "" : value < 0.0 ? "−" : "+") + size;
 }
 
 std::string models_word(int count) { return count == 1 ? "1 model" : fmt::format("{} models", count); }
@@ -130,20 +132,44 @@ std::vector<Setting> ranked_settings(const Run& run, const Findings& found, cons
   return settings;
 }
 
+/// "Best by model, against gsp gamma=2: horse: gsp gamma=4 (−3.1%); venus: the reference itself." Models on which nothing
+/// compares with the reference are left out; a difference that prints as 0.0% is none.
 std::string best_by_model(const Run& run, const Findings& found, const std::vector<Setting>& settings) {
+  constexpr double kLeastSaving = 0.05;
   std::string text;
+  bool improved = false;
   for (const StoredModel& model : run.models) {
-    std::string best = found.reference;
-    double least = 0.0;
+    std::string best = "the reference itself";
+    double least = -kLeastSaving;
+    bool compared = false, better = false;
     for (const Setting& s : settings) {
       const Comparison* c = found.comparison(model.name, s.label);
-      if (!c || !c->bd_rate || *c->bd_rate >= least) continue;
+      if (!c || !c->bd_rate) continue;
+      compared = true;
+      if (*c->bd_rate >= least) continue;
       least = *c->bd_rate;
       best = s.label;
+      better = true;
     }
-    text += fmt::format("{}{}: {} ({})", text.empty() ? "" : "; ", model.name, best, signed_percent(least, 1));
+    if (!compared) continue;
+    improved = improved || better;
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", model.name, best);
+    if (better) text += fmt::format(" ({})", signed_percent(least, 1));
   }
-  return text;
+  if (!improved) return fmt::format("No setting is better than {} on any model.", found.reference);
+  return fmt::format("Best by model, against {}: {}.", found.reference, text);
+}
+
+/// " (horse −3.1%, venus +0.4%)": what a mean is made of, empty for one model.
+std::string by_model(const Findings& found, const std::string& label) {
+  std::string text;
+  int models = 0;
+  for (const Comparison& c : found.comparisons) {
+    if (c.label != label || !c.bd_rate) continue;
+    text += fmt::format("{}{} {}", models ? ", " : "", c.model, signed_percent(*c.bd_rate, 1));
+    ++models;
+  }
+  return models > 1 ? " (" + text + ")" : std::string();
 }
 
 /// Which setting of the reference's method is best, and by how much.
@@ -156,7 +182,8 @@ void tell_settings(const Run& run, const Findings& found, const std::string& met
   const auto over = [&](const Setting& s) { return 100.0 * ((100.0 + s.bd_rate) / (100.0 + best.bd_rate) - 1.0); };
   std::string sentence = fmt::format("Of {} settings, {} needs the fewest bytes at equal PSNR, the mean of {}",
                                      settings.size(), best.label, models_word(best.models));
-  if (best.label != found.reference) sentence += fmt::format(": {:.1f}% fewer than {}", -best.bd_rate, found.reference);
+  if (best.label != found.reference)
+    sentence += fmt::format(": {:.1f}% fewer than {}{}", -best.bd_rate, found.reference, by_model(found, best.label));
   sentence += fmt::format("; the next best, {}, needs {:.1f}% more than it", next.label, over(next));
   if (settings.size() > 2) sentence += fmt::format(", the worst, {}, {:.1f}%", worst.label, over(worst));
   if (left_out > 0) sentence += fmt::format("; {} more {} not compared, for want of a model", left_out, left_out == 1 ? "is" : "are");
@@ -169,8 +196,7 @@ void tell_settings(const Run& run, const Findings& found, const std::string& met
   if (!without.empty())
     sentence += fmt::format("; on {} the curves share no PSNR below their ceilings", fmt::join(without, ", "));
   sentences.push_back(sentence + ".");
-  sentences.push_back(
-      fmt::format("Best by model, against {}: {}.", found.reference, best_by_model(run, found, settings)));
+  sentences.push_back(best_by_model(run, found, settings));
 }
 
 void tell_missing(const Run& run, std::vector<std::string>& sentences) {

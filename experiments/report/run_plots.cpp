@@ -19,6 +19,8 @@ namespace {
 constexpr std::size_t kMostPanels = 4;
 /// More bars a group than a reader can tell apart; a table has them.
 constexpr std::size_t kMostBars = 12;
+/// Pixels of a figure of bars with its key at the right.
+constexpr int kBarsWidth = 1200;
 constexpr const char* kGrid = "set grid ytics back lt 1 lw 1 lc rgb '#e4e4e4'\n";
 
 void add_figure(std::vector<RunFigure>& figures, const std::string& folder, const std::string& name,
@@ -44,7 +46,7 @@ std::string bars(const std::vector<std::string>& labels, const std::string& rows
   const auto groups = std::count(rows.begin(), rows.end(), '\n');
   std::string script = fmt::format("set xrange [-0.6:{}.6]\n", groups - 1);
   script += "$bars << EOD\n" + rows + "EOD\nset style data histogram\nset style histogram cluster gap 1\n" +
-            "set style fill solid border rgb 'white'\nset key outside top center horizontal noenhanced\n" + kGrid +
+            "set style fill solid border rgb 'white'\nset key outside right center Left reverse noenhanced\n" + kGrid +
             "set xtics scale 0 noenhanced\n";
   script += "bars = \"plot ";
   for (std::size_t i = 0; i < labels.size(); ++i)
@@ -164,9 +166,9 @@ void bar_figure(const Run& run, const Findings& found, const std::string& folder
     rows += '\n';
   }
   const std::string setup = bars(labels, rows, curve_colors(run, labels)) +
-                            "set datafile separator whitespace\nset ylabel 'bytes over those of " + found.reference +
-                            ", %'\nset xzeroaxis lt 1 lc rgb '#555555'\nset yrange [*<0:0<*]\n";
-  add_figure(figures, folder, "bd-rate", figure_script("bd-rate", setup, "eval(bars)\n", 900, 500),
+                            "set datafile separator whitespace\nset ylabel 'bytes over those of the reference, %'\nset title " +
+                            gnuplot_quoted("reference: " + found.reference) + " noenhanced\nset xzeroaxis lt 1 lc rgb '#555555'\nset yrange [*<0:0<*]\n";
+  add_figure(figures, folder, "bd-rate", figure_script("bd-rate", setup, "eval(bars)\n", kBarsWidth, 500),
              fmt::format("BD-rate against {}: bytes that each needs more at equal PSNR, ceilings respected.",
                          found.reference));
 }
@@ -254,7 +256,7 @@ void error_figure(const Run& run, const std::string& folder, std::vector<RunFigu
   }
   const std::string setup =
       bars(labels, rows, colors) + "set ylabel 'remeshing error, 10^{-5} of the diagonal'\nset yrange [0:*]\n";
-  add_figure(figures, folder, "remesh-error", figure_script("remesh-error", setup, "eval(bars)\n", 900, 500),
+  add_figure(figures, folder, "remesh-error", figure_script("remesh-error", setup, "eval(bars)\n", kBarsWidth, 500),
              "RMS distance of the uncoded remesh (the paper's Table 1); the level of the remesh decides it as much as "
              "the map.");
 }

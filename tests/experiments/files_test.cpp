@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "experiments/anchor_curves.h"
@@ -10,6 +11,7 @@
 #include "experiments/plot.h"
 #include "experiments/stages.h"
 #include "experiments/version.h"
+#include "mesh/read_file.h"
 #include "temporary_folder.h"
 
 using namespace gsp;
@@ -94,9 +96,18 @@ TEST_CASE("a plot draws strange names, and names the files it made") {
   const auto files = plot(folder.path().string(), "figure", {{model, points}, {"second", points}});
   REQUIRE(files.size() == 3);
   for (const std::string& file : files) CHECK(std::filesystem::file_size(folder.file(file)) > 500);
+  const std::string svg = read_file(folder.file("figure.svg"));
+  CHECK(svg.find("<text>gsp</text>") != std::string::npos);
+  CHECK(svg.find("<text>gsp</text>") == svg.rfind("<text>gsp</text>"));  // one key for both panels
   std::size_t entries = 0;
   for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) ++entries;
   CHECK(entries == files.size());
+}
+
+TEST_CASE("a method's first label has its colour, and no two of a few labels share one") {
+  const auto colors = method_colors({"gsp", "gsp gamma=1", "draco", "other"});
+  CHECK(colors[0] == method_colors({"gsp gamma=2"}).front());
+  CHECK(std::set<std::string>(colors.begin(), colors.end()).size() == 4);
 }
 
 TEST_CASE("folders stand for the surfaces in them, in name order") {

@@ -78,6 +78,40 @@ TEST_CASE("ranges go by step, by number of steps or by factor, and end where the
   CHECK(gammas("{ from = 0.25, to = 4, factor = 2 }") == std::vector<double>{0.25, 0.5, 1.0, 2.0, 4.0});
 }
 
+TEST_CASE("a model's own keys override for it alone, and models keep their order") {
+  const Recipe recipe = recipe_of(
+      "base_vertices = 50\nmodels = [\"shape:torus\", { path = \"shape:dish\", base_vertices = [15, 20] },\n"
+      "  { path = \"shape:sphere\", budgets = [64] }, \"shape:genus-2\"]\n[[block]]\n[[block]]\ngamma = [0, 1]\n");
+  REQUIRE(recipe.blocks.size() == 8);
+  CHECK(recipe.blocks[0].models == std::vector<std::string>{"shape:torus"});
+  REQUIRE(recipe.blocks[1].cells.size() == 2);
+  CHECK(recipe.blocks[1].models == std::vector<std::string>{"shape:dish"});
+  CHECK(recipe.blocks[1].cells[1].parameterize.base_vertices == 20);
+  CHECK(recipe.blocks[2].cells[0].parameterize.base_vertices == 50);
+  CHECK(recipe.blocks[2].cells[0].budgets == std::vector<std::size_t>{64});
+  CHECK(recipe.blocks[3].cells[0].parameterize.base_vertices == 50);
+  CHECK(recipe.blocks[5].cells.size() == 4);
+}
+
+TEST_CASE("a surface that a pattern and a table name is one, with the table's keys") {
+  const Recipe recipe = recipe_of("models = [\"shape:torus\", { path = \"shape:torus\", base_vertices = 15 }]\n");
+  REQUIRE(recipe.blocks.size() == 1);
+  CHECK(recipe.blocks[0].models == std::vector<std::string>{"shape:torus"});
+  CHECK(recipe.blocks[0].cells[0].parameterize.base_vertices == 15);
+}
+
+TEST_CASE("a preset stands for options of the map, which keys override") {
+  const Recipe recipe = recipe_of(
+      "models = [\"shape:torus\"]\npreset = [\"default\", \"paper\"]\ngamma = [1, 2]\n[[block]]\n"
+      "[[block]]\npreset = \"paper\"\nobjective = \"distortion\"\n");
+  const std::vector<CellOptions>& cells = recipe.blocks[0].cells;
+  REQUIRE(cells.size() == 4);
+  CHECK(cells[0].parameterize.objective == Objective::Distortion);
+  CHECK(cells[3].parameterize.objective == paper_options().objective);
+  CHECK(cells[3].parameterize.gamma == 2.0);
+  CHECK(recipe.blocks[1].cells[0].parameterize.objective == Objective::Distortion);
+}
+
 TEST_CASE("what a recipe cannot mean is refused with the line") {
   CHECK(says(refusal("gama = 1"), "unknown key gama; did you mean gamma?"));
   CHECK(says(refusal("gamma = -1"), "gamma: -1 is not 0 to"));
@@ -102,6 +136,18 @@ TEST_CASE("what a recipe cannot mean is refused with the line") {
   CHECK(says(refusal("[[block]]\nmodels = [\"shape:tours\"]", 3), "did you mean torus?"));
   CHECK(says(refusal("[[block]]\nmodels = [\"no/such/*.ply\"]", 3), "no file matches"));
   CHECK(says(refusal("[[block]]\nname = \"x\"", 3), "unknown key name"));
+  CHECK(says(refusal("[[block]]\nmodels = [\"no/such/*.ply\"]", 3), "--models takes other surfaces"));
+  CHECK(says(refusal("preset = \"papper\""), "preset is none of default, paper"));
+  CHECK(says(refusal("preset = []"), "empty list"));
+  const auto model = [](const std::string& entry, long long at = 4) {
+    return refusal("[[block]]\nmodels = [\n" + entry + "]", at);
+  };
+  CHECK(says(model("{ path = \"shape:torus\", base_vertice = 15 }"), "did you mean base_vertices?"));
+  CHECK(says(model("{ path = \"shape:torus\", base_vertices = 3 }"), "base_vertices: 3 is not"));
+  CHECK(says(model("{ base_vertices = 15 }"), "no table with one as path"));
+  CHECK(says(model("15"), "no pattern of files"));
+  CHECK(says(model("{ path = \"shape:torus\", gamma = 1 },\n{ path = \"shape:torus\", gamma = 2 }", 5), "keys twice"));
+  CHECK(says(refusal("[[block]]\nmodels = [{ path = \"no/such.ply\", gamma = 1 }]", 3), "no file matches"));
   CHECK(says(refusal("gamma = = 1"), "study.toml"));
   CHECK_THROWS_AS(recipe_of("gamma = 1\n"), Error);
   CHECK_THROWS_AS(read_recipe("no/such/recipe.toml"), Error);
@@ -112,4 +158,28 @@ TEST_CASE("models given instead replace those of the recipe, also where those ar
   std::ofstream(folder.file("study.toml")) << "models = [\"no/such.ply\"]\n";
   const Recipe recipe = read_recipe(folder.file("study.toml"), {"shape:dish"});
   CHECK(recipe.blocks.front().models == std::vector<std::string>{"shape:dish"});
+}
+
+TEST_CASE("a model given instead keeps the keys of the recipe's model that is called the same, wherever it lies") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("study.toml")) << "models = [{ path = \"no/such/horse*.ply\", base_vertices = 140 }]\n";
+  for (const char* name : {"horse_48485.off", "cow.off"}) std::ofstream(folder.file(name)) << "OFF\n";
+  const Recipe recipe = read_recipe(folder.file("study.toml"), {folder.file("*.off"), folder.file("cow.off")});
+  REQUIRE(recipe.blocks.size() == 2);
+  CHECK(recipe.blocks[0].models == std::vector<std::string>{folder.file("cow.off")});
+  CHECK(recipe.blocks[0].cells[0].parameterize.base_vertices == 0);
+  CHECK(recipe.blocks[1].cells[0].parameterize.base_vertices == 140);
+}
+
+TEST_CASE("a key that a block sets besides a model above it is refused with both lines") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("study.toml"))
+      << "models = [{ path = \"shape:torus\", base_vertices = 15 }]\n[[block]]\nbase_vertices = 20\n";
+  try {
+    read_recipe(folder.file("study.toml"));
+    FAIL("accepted");
+  } catch (const Error& error) {
+    CHECK(error.index().value_or(-1) == 3);
+    CHECK(says(error.what(), "for shape:torus above (line 1)"));
+  }
 }

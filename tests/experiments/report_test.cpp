@@ -120,10 +120,23 @@ TEST_CASE("a sweep over settings is answered with the best, and by how much") {
   CHECK(contains(found.sentences[0], "Of 3 settings, " + run.cells[2].label + " needs the fewest bytes"));
   CHECK(contains(found.sentences[0], ": 20.0% fewer than " + run.cells[0].label));
   CHECK(contains(found.sentences[0], run.cells[0].label + ", needs 25.0% more than it"));
+  CHECK(contains(found.sentences[0], " (ball −20.0%, cube −20.0%)"));
   CHECK(contains(found.sentences[1], "ball: " + run.cells[2].label + " (−20.0%)"));
   run.cells[3].status = CellStatus::Failed;
   run.cells[3].cause = "invalid-map";
   CHECK(contains(findings(run).sentences.back(), "1 of 6 cells failed"));
+}
+
+TEST_CASE("where no setting beats the reference, the report says so, and of models with nothing to compare nothing") {
+  Run run;
+  for (const char* model : {"ball", "cube", "torus"}) run.models.emplace_back().name = model;
+  run.cells = {setting("ball", 2.0, 1.0, 1.0), setting("ball", 0.0, 1.0, 1.5), setting("cube", 2.0, 1.0, 1.0),
+               setting("cube", 0.0, 1.0, 0.8), setting("torus", 2.0, 1.0, 1.0)};
+  const std::string reference = run.cells[0].label;
+  CHECK(findings(run).sentences.back() == "Best by model, against " + reference + ": ball: the reference itself; cube: " +
+                                              run.cells[3].label + " (−20.0%).");
+  run.cells[3] = setting("cube", 0.0, 1.0, 1.5);
+  CHECK(findings(run).sentences.back() == "No setting is better than " + reference + " on any model.");
 }
 
 TEST_CASE("a report of a curve folder is one page that needs nothing else") {

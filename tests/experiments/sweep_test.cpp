@@ -219,26 +219,63 @@ TEST_CASE("one sweep at a time works on a folder, and fail-fast stops at the fir
   CHECK(result.failed());
 }
 
-TEST_CASE("a sweep killed at random moments and resumed ends with the same database and table") {
-  const Study whole, killed;
-  const std::string text = kTwoMethods;
+namespace {
+
+// Kills sweeps at that many random moments, each resumed until it is done, and then the next from nothing; all must end
+// like an undisturbed one. Returns how many were done.
+int kill_and_resume(int kills) {
+  const Study whole;
+  // The same surfaces by the same names, so that the rows can be equal.
+  const std::string recipe = whole.recipe_file(kTwoMethods);
   const auto start = std::chrono::steady_clock::now();
-  whole.run(text, "*.ply", 2);
+  whole.run(kTwoMethods, "*.ply", 2);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
-  // The same surfaces by the same names, so that the rows can be equal.
-  const std::string recipe = whole.recipe_file(text);
   Random random(6);
-  constexpr int kKills = 4;
-  for (int kill = 0; kill < kKills; ++kill) {
-    Worker victim(GSP_PROGRAM, {"sweep", recipe, "--store", killed.store(), "--jobs", "2", "-q"});
-    std::this_thread::sleep_for(std::chrono::duration<double>(0.7 * random.uniform() * seconds));
-    victim.kill();
-    victim.wait();
+  int done = 0;
+  for (int killed = 0; killed < kills; ++done) {
+    const TemporaryFolder folder;
+    const std::string store = folder.file("store");
+    for (bool finished = false; !finished;) {
+      Worker victim(GSP_PROGRAM, {"sweep", recipe, "--store", store, "--jobs", "2", "-q"});
+      if (killed < kills) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(0.7 * random.uniform() * seconds));
+        victim.kill();
+      }
+      const WorkerEnd end = victim.wait();
+      killed += end.signal != 0;
+      finished = end.signal == 0;
+      if (finished) REQUIRE(end.status == 0);
+    }
+    CHECK(dump(store) == dump(whole.store()));
+    CHECK(read_file(store + "/curve.csv") == read_file(whole.store() + "/curve.csv"));
   }
-  Progress silent;
-  const SweepResult resumed = sweep(read_recipe(recipe), killed.store(), Study::options(2), silent);
-  CHECK(count(resumed.cells, CellStatus::Done) == 6);
-  CHECK(dump(killed.store()) == dump(whole.store()));
-  CHECK(read_file(killed.store() + "/curve.csv") == read_file(whole.store() + "/curve.csv"));
+  return done;
+}
+
+}  // namespace
+
+TEST_CASE("a sweep killed at random moments and resumed ends with the same database and table") {
+  CHECK(kill_and_resume(4) >= 1);
+}
+
+TEST_CASE("sweeps killed at fifty random moments end with the same database and table", "[slow]") {
+  const int done = kill_and_resume(50);
+  INFO(done << " sweeps done");
+  CHECK(done >= 2);
+}
+
+TEST_CASE("what differs from model to model only is no part of a label, so that curves compare across models") {
+  const Study study;
+  const auto labels = [&](const std::string& models) {
+    std::ofstream(study.file("labels.toml")) << "models = [" << models << "]\nmethod = [\"gsp\", \"maps\"]\n";
+    std::set<std::string> found;
+    for (const StoredCell& cell : planned_cells(read_recipe(study.file("labels.toml")), study.store()))
+      found.insert(cell.label);
+    return found;
+  };
+  const std::string torus = "{ path = \"" + study.file("torus.ply") + "\", base_vertices = 12 }";
+  CHECK(labels("\"" + study.file("bumpy.ply") + "\", " + torus) == std::set<std::string>{"gsp", "maps"});
+  const std::string both = "{ path = \"" + study.file("bumpy.ply") + "\", base_vertices = [12, 16], method = \"gsp\" }";
+  CHECK(labels(both + ", " + torus) == std::set<std::string>{"gsp base_vertices=12", "gsp base_vertices=16", "maps"});
 }
