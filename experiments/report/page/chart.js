@@ -4,10 +4,14 @@ const Chart = (() => {
   const known = { gsp: '#c8102e', 'maps-smoothed': '#1f5fa8', maps: '#7fb2e5', 'decimate-draco': '#2b2b2b', draco: '#9a9a9a' };
   const further = ['#6a3d9a', '#1b7f5c', '#c77a00', '#00829b', '#a6408c', '#5d7a00', '#7a5230', '#3b4cc0', '#d1495b', '#66a182'];
 
+  // As method_colors (plot.cpp) does it, so that the page and its figures agree.
   function colours(labels) {
     const result = {};
     let next = 0;
-    for (const label of labels) result[label] = known[label] || further[next++ % further.length];
+    for (const label of labels) {
+      const own = known[label.split(' ')[0]];
+      result[label] = own && !Object.values(result).includes(own) ? own : further[next++ % further.length];
+    }
     return result;
   }
 
