@@ -210,17 +210,18 @@ void Command::axis_number(const std::string& name, double& value, const std::str
   number(option_of(name), value, bounds.low, bounds.high, text);
 }
 
-void Command::axis_word(const std::string& name, ParameterizeOptions& options, const std::string& text) {
+template <class Stage>
+void Command::axis_word(const std::string& name, Stage CellOptions::*stage, Stage& options, const std::string& text) {
   const Axis& word = axis(name);
   CellOptions cell;
-  cell.parameterize = options;
+  cell.*stage = options;
   app_->add_option_function<std::string>(
           option_of(name),
-          [&options, &word](const std::string& given) {
+          [&options, &word, stage](const std::string& given) {
             CellOptions changed;
-            changed.parameterize = options;
+            changed.*stage = options;
             word.set(changed, given);
-            options = changed.parameterize;
+            options = changed.*stage;
           },
           fmt::format("{} [{}; {}]", text, to_string(word.get(cell)), fmt::join(word.words, ", ")))
       ->check([&word](const std::string& given) { return refusal(given, word.words); })
@@ -242,28 +243,17 @@ void Command::parameterize_options(ParameterizeOptions& options) {
   axis_number("gamma", options.gamma, "weight of triangle shape in the cost");
   axis_number("mu", options.mu, "weight of area dispersion in the cost");
   axis_integer("relaxations", options.relaxations, "corner relaxations between solves at most");
-  axis_word("objective", options, "what the map minimises: linear is the paper's global system");
-  axis_word("corners", options,
+  axis_word("objective", &CellOptions::parameterize, options, "what the map minimises: linear is the paper's global system");
+  axis_word("corners", &CellOptions::parameterize, options,
             "how corners move between solves: the paper's relaxation, or down the energy's gradient");
-  axis_word("weights", options, "of the linear objective and of corner relaxation");
+  axis_word("weights", &CellOptions::parameterize, options, "of the linear objective and of corner relaxation");
 }
 
 void Command::remesh_options(RemeshOptions& options) {
   axis_integer_or_auto("level", options.level, RemeshOptions::kAutoLevel,
                        "quadrisections of the base; auto is the first level with as many faces as the input");
-  const Axis& positions = axis("positions");
-  const auto set = [&options, &positions](const std::string& given) {
-    CellOptions changed;
-    positions.set(changed, given);
-    options.positions = changed.remesh.positions;
-  };
-  app_->add_option_function<std::string>(
-          option_of(positions.name), set,
-          fmt::format("vertices of the remesh: fitted to be nearest in the mean square, or the paper's samples of the "
-                      "surface [{}; {}]",
-                      positions_name(options.positions), fmt::join(positions.words, ", ")))
-      ->check([&positions](const std::string& given) { return refusal(given, positions.words); })
-      ->option_text("WORD");
+  axis_word("positions", &CellOptions::remesh, options,
+            "vertices of the remesh: fitted to be nearest in the mean square, or the paper's samples of the surface");
 }
 
 void Command::encode_options(std::string& wavelet, EncodeOptions& options) {

@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "coder/codec.h"
+#include "experiments/cell_options.h"
 #include "mesh/mesh.h"
 #include "param/parameterize.h"
 #include "remesh/remesh.h"
@@ -70,7 +71,9 @@ class Command {
   // Options with the bounds of the axis of that name.
   void axis_integer(const std::string& name, int& value, const std::string& text);
   void axis_integer_or_auto(const std::string& name, int& value, int automatic, const std::string& text);
-  void axis_word(const std::string& name, ParameterizeOptions& options, const std::string& text);
+  /// `options`: the command's own of one stage, which is the member `stage` of a cell's.
+  template <class Stage>
+  void axis_word(const std::string& name, Stage CellOptions::*stage, Stage& options, const std::string& text);
   void axis_number(const std::string& name, double& value, const std::string& text);
 
   CLI::App* app_;

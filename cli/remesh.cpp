@@ -26,10 +26,9 @@ int run_remesh(const RemeshArguments& options, Context& context) {
   const SemiregularMesh result = options.max_error > 0.0
                                      ? remesh_to_error(map, options.max_error, options.remesh.positions, progress)
                                      : remesh(map, options.remesh, progress);
-  const std::string positions = positions_name(options.remesh.positions);
-  write_semiregular(options.output, result, {"positions " + positions});
+  write_semiregular(options.output, result, provenance_of(options.remesh));
   print_report(context, {{"level", result.level},
-                         {"positions", positions},
+                         {"positions", positions_name(options.remesh.positions)},
                          {"vertices", result.positions.size()},
                          {"faces", result.base_faces.size() << (2 * result.level)},
                          {"base_vertices", result.base_vertices},

@@ -112,7 +112,8 @@ void add_sweep(CLI::App& app, Context& context) {
   constexpr int kMostJobs = 1024;
   command.argument("RECIPE", options->recipe, "what to vary, TOML (experiments/recipes has some)");
   command.required_option("--store", "DIR", options->store, "folder for the results");
-  command.texts("--models", options->models, "PATTERN...", "surfaces instead of the recipe's; one called as a model with keys of its own keeps them");
+  command.texts("--models", options->models, "PATTERN...",
+                "surfaces instead of the recipe's; one called as a model with keys of its own keeps them");
   command.integer("--jobs", options->sweep.jobs, 0, kMostJobs,
                   "worker processes, 0 for one a core; fewer run where memory is short");
   command.flag("--slurm", options->sweep.slurm, "as a Slurm job array; called again, it waits for the one under way");

@@ -199,25 +199,25 @@ std::vector<ModelEntry> model_entries(const toml::table* block, const toml::tabl
 }
 
 // A surface and the keys that are its alone, null for none.
-struct Surface {
+struct ModelSource {
   std::string source;
   const toml::table* own;
 };
 
 // A surface that is named twice is one, with the keys of the entry that has some.
-void add_surface(std::vector<Surface>& surfaces, Surface surface, long long line) {
+void add_surface(std::vector<ModelSource>& surfaces, ModelSource surface, long long line) {
   const auto same = std::find_if(surfaces.begin(), surfaces.end(),
-                                 [&](const Surface& other) { return other.source == surface.source; });
+                                 [&](const ModelSource& other) { return other.source == surface.source; });
   if (same == surfaces.end()) {
     surfaces.push_back(std::move(surface));
   } else if (surface.own) {
-    if (same->own) refuse(surface.source + " has keys twice; a key takes a list of values", line);
+    if (same->own && same->own != surface.own) refuse(surface.source + " has keys twice; a key takes a list of values", line);
     same->own = surface.own;
   }
 }
 
-std::vector<Surface> found_surfaces(const std::vector<ModelEntry>& entries) {
-  std::vector<Surface> surfaces;
+std::vector<ModelSource> found_surfaces(const std::vector<ModelEntry>& entries) {
+  std::vector<ModelSource> surfaces;
   for (const ModelEntry& entry : entries) try {
       for (std::string& source : matching_models(entry.pattern))
         add_surface(surfaces, {std::move(source), entry.own}, entry.line);
@@ -231,17 +231,19 @@ std::vector<Surface> found_surfaces(const std::vector<ModelEntry>& entries) {
 std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
 
 // The surfaces given instead; one that is named as one of the recipe's keeps that one's keys.
-std::vector<Surface> replacing_surfaces(const std::vector<std::string>& instead,
+std::vector<ModelSource> replacing_surfaces(const std::vector<std::string>& instead,
                                         const std::vector<ModelEntry>& entries) {
-  std::vector<Surface> surfaces;
+  std::vector<ModelSource> surfaces;
   for (const std::string& pattern : instead)
     for (const std::string& source : matching_models(pattern)) {
       const auto entry = std::find_if(entries.begin(), entries.end(), [&](const ModelEntry& e) {
         return e.own && ::fnmatch(stem(e.pattern).c_str(), stem(source).c_str(), 0) == 0;
       });
-      const auto same = [&](const Surface& surface) { return surface.source == source; };
-      if (std::none_of(surfaces.begin(), surfaces.end(), same))
-        surfaces.push_back({source, entry == entries.end() ? nullptr : entry->own});
+      // The same surface has the same entry, however often it is given.
+      if (entry == entries.end())
+        add_surface(surfaces, {source, nullptr}, 0);
+      else
+        add_surface(surfaces, {source, entry->own}, entry->line);
     }
   return surfaces;
 }
@@ -257,11 +259,12 @@ std::vector<ParameterizeOptions> presets(const Layers& layers) {
       refuse(fmt::format("preset is none of {}", fmt::join(words, ", ")), line_of(word));
     found.push_back(preset_options(word.ref<std::string>()));
   };
-  const toml::array* list = node->as_array();
-  if (!list) add(*node);
-  if (list && list->empty()) refuse("preset is an empty list: the sweep would have no cell", line_of(*node));
-  if (list)
+  if (const toml::array* list = node->as_array()) {
+    if (list->empty()) refuse("preset is an empty list: the sweep would have no cell", line_of(*node));
     for (const toml::node& word : *list) add(word);
+  } else {
+    add(*node);
+  }
   return found;
 }
 
@@ -309,9 +312,9 @@ void add_block(Recipe& recipe, const toml::table* block, const toml::table& file
   const std::vector<ModelEntry> entries = model_entries(block, file);
   if (entries.empty() && instead.empty())
     refuse("there are no models: models = [\"data/*.ply\", \"shape:torus\"]", line);
-  const std::vector<Surface> surfaces = instead.empty() ? found_surfaces(entries) : replacing_surfaces(instead, entries);
+  const std::vector<ModelSource> surfaces = instead.empty() ? found_surfaces(entries) : replacing_surfaces(instead, entries);
   const toml::table* own = nullptr;
-  for (const Surface& surface : surfaces) {
+  for (const ModelSource& surface : surfaces) {
     if (&surface == &surfaces.front() || surface.own != own)
       recipe.blocks.push_back({{}, combinations({surface.own, block, file}, line)});
     own = surface.own;

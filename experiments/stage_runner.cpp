@@ -151,7 +151,7 @@ class Runner {
                       {"remesh_hausdorff", remesh.distance.hausdorff},
                       {"ceiling_db", remesh.distance.psnr_db}};
     result.artefacts["remesh"] = keep_artefact(store_, ".sr.ply", [&](const std::string& path) {
-      write_semiregular(path, remesh.mesh, {std::string("positions ") + positions_name(cell.options.remesh.positions)});
+      write_semiregular(path, remesh.mesh, provenance_of(cell.options.remesh));
     });
   }
 

@@ -55,8 +55,8 @@ std::array<int, 2> along_side(int steps, int k, int s) {
   return {0, steps - s};
 }
 
-/// Vector area of the face between three points, twice.
-Vec3 face_area(const Triangle& face, const std::vector<Vec3>& positions) {
+/// Twice the vector area of the face between three points.
+Vec3 doubled_area(const Triangle& face, const std::vector<Vec3>& positions) {
   const Vec3& a = positions[face[0]];
   return (positions[face[1]] - a).cross(positions[face[2]] - a);
 }
@@ -146,7 +146,7 @@ class LeastSquares {
 PositionFit::PositionFit(const SubdivisionLevel& finest, int steps)
     : finest_(finest),
       steps_(steps),
-      face_areas_(finest.faces.size()),
+      doubled_areas_(finest.faces.size()),
       face_moments_(finest.faces.size()),
       place_(finest.edges.size(), -1) {
   for (int e = 0; e < finest.edge_count(); ++e) {
@@ -176,7 +176,7 @@ void PositionFit::add_face(int face, const std::vector<Vec3>& points) {
       const Vec3 from = points[lattice_index(steps_, s0, t0)] - points[0];
       area += from.cross(points[lattice_index(steps_, s1, t1)] - points[0]);
     }
-  face_areas_[face] = area;
+  doubled_areas_[face] = area;
   for (int k = 0; k < 3; ++k) {
     const int place = place_[finest_.face_edges[face][k]];
     if (place < 0) continue;
@@ -195,8 +195,8 @@ bool PositionFit::hold_turned(const std::vector<Vec3>& sampled, const std::vecto
   bool any = false;
   for (int f = 0; f < finest_.face_count(); ++f) {
     const Triangle& face = finest_.faces[f];
-    if (!(face_area(face, positions).dot(face_areas_[f]) <= 0.0)) continue;
-    if (face_area(face, sampled).dot(face_areas_[f]) <= 0.0) continue;
+    if (!(doubled_area(face, positions).dot(doubled_areas_[f]) <= 0.0)) continue;
+    if (doubled_area(face, sampled).dot(doubled_areas_[f]) <= 0.0) continue;
     for (int v : face) {
       any = any || !held[v];
       held[v] = 1;

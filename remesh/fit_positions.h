@@ -37,7 +37,7 @@ class PositionFit {
 
   const SubdivisionLevel& finest_;
   int steps_;
-  std::vector<Vec3> face_areas_;                   ///< #F, vector area of the surface over the face
+  std::vector<Vec3> doubled_areas_;                ///< #F, twice the vector area of the surface over the face
   std::vector<std::array<Vec3, 3>> face_moments_;  ///< #F, by corner
   std::vector<int> boundary_edges_;
   std::vector<int> place_;                         ///< #E, of an edge among the boundary's, -1 inside

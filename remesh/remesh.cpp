@@ -216,6 +216,10 @@ class Remesher {
 
 const char* positions_name(Positions positions) { return positions == Positions::Fitted ? "fitted" : "sampled"; }
 
+std::vector<std::string> provenance_of(const RemeshOptions& options) {
+  return {std::string("positions ") + positions_name(options.positions)};
+}
+
 SemiregularMesh remesh(const Parameterization& map, const RemeshOptions& options, Progress& progress) {
   require_well_formed(map);
   if (map.base.faces.empty()) throw Error(Cause::InvalidMap, "a map without base faces has nothing to remesh");

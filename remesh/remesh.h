@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "mesh/progress.h"
 #include "param/parameterization.h"
 #include "remesh/semiregular.h"
@@ -33,5 +36,8 @@ struct RemeshOptions {
 /// bits for any number of them. Throws Error: BadOption, InvalidMap where nothing covers a base face, the errors of
 /// `require_well_formed`.
 SemiregularMesh remesh(const Parameterization& map, const RemeshOptions& options, Progress& progress);
+
+/// What a remesh's file says of how its vertices were made, for `write_semiregular`: "positions fitted".
+std::vector<std::string> provenance_of(const RemeshOptions& options);
 
 }  // namespace gsp

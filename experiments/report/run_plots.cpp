@@ -167,7 +167,8 @@ void bar_figure(const Run& run, const Findings& found, const std::string& folder
   }
   const std::string setup = bars(labels, rows, curve_colors(run, labels)) +
                             "set datafile separator whitespace\nset ylabel 'bytes over those of the reference, %'\nset title " +
-                            gnuplot_quoted("reference: " + found.reference) + " noenhanced\nset xzeroaxis lt 1 lc rgb '#555555'\nset yrange [*<0:0<*]\n";
+                            gnuplot_quoted("reference: " + found.reference) + " noenhanced\n"
+                            "set xzeroaxis lt 1 lc rgb '#555555'\nset yrange [*<0:0<*]\n";
   add_figure(figures, folder, "bd-rate", figure_script("bd-rate", setup, "eval(bars)\n", kBarsWidth, 500),
              fmt::format("BD-rate against {}: bytes that each needs more at equal PSNR, ceilings respected.",
                          found.reference));

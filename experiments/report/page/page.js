@@ -137,7 +137,8 @@
     byId('table').replaceChildren(...rows);
     byId('table-note').textContent = `Base: vertices of the base complex. Error: RMS distance of the uncoded remesh over the ` +
       `diagonal, in units of 1e-5, beside that of the paper's Table 1, ` +
-      `whose vertices are samples of the surface; here they are fitted unless the recipe says positions="sampled". dB columns: bytes at which the curve reaches it. ` +
+      `whose vertices are samples of the surface; here they are fitted unless the recipe says positions="sampled". ` +
+      `dB columns: bytes at which the curve reaches it. ` +
       `BD-rate: mean bytes against ${run.reference} at equal PSNR, below the ceilings less 10 dB; more than 0 is worse.`;
   }
 

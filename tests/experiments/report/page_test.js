@@ -1,5 +1,6 @@
 'use strict';
-// Runs in the page, after it: does what a reader would, and logs "passed" or what failed. `window.pageErrors` was filled from before the page's own scripts on.
+// Runs in the page, after it: does what a reader would, and logs "passed" or what failed. `window.pageErrors` was
+// filled from before the page's own scripts on.
 (async () => {
   const failures = [];
   const expect = (condition, text) => { if (!condition) failures.push(text); };
