@@ -27,7 +27,7 @@ void simplify_sphere(benchmark::State& state) {
   const auto sphere = surface(state);
   set_thread_count(static_cast<int>(state.range(1)));
   Progress silent;
-  for (auto _ : state) benchmark::DoNotOptimize(simplify(sphere, options(), 2, silent));
+  for (auto _ : state) benchmark::DoNotOptimize(simplify(sphere, options(), coarsest_level(*sphere, options()), silent));
   state.SetItemsProcessed(state.iterations() * sphere->mesh.vertex_count());
   set_thread_count(0);
 }
@@ -39,7 +39,7 @@ void smooth_sphere(benchmark::State& state) {
   Progress silent;
   for (auto _ : state) {
     state.PauseTiming();
-    SimplifyResult simplified = simplify(sphere, options(), 2, silent);
+    SimplifyResult simplified = simplify(sphere, options(), coarsest_level(*sphere, options()), silent);
     state.ResumeTiming();
     benchmark::DoNotOptimize(smooth_levels(std::move(simplified), options(), silent));
   }
@@ -51,7 +51,7 @@ BENCHMARK(smooth_sphere)->ArgsProduct({{5, 6, 7}, {1, 2}})->Unit(benchmark::kMil
 void replay_as_maps(benchmark::State& state) {
   const auto sphere = surface(state);
   Progress silent;
-  const SimplifyResult simplified = simplify(sphere, options(), 2, silent);
+  const SimplifyResult simplified = simplify(sphere, options(), coarsest_level(*sphere, options()), silent);
   for (auto _ : state) benchmark::DoNotOptimize(maps_of(simplified));
   state.SetItemsProcessed(state.iterations() * sphere->mesh.vertex_count());
 }

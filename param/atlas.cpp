@@ -11,19 +11,13 @@ namespace {
 
 constexpr double kOnEdge = 1e-10;  // outside of a chart's triangle by less is rounding of a point on its edge
 
-bool inside(Complex z) {
+}  // namespace
+
+bool inside_chart(Complex z) {
   const auto w = chart_barycentric(z);
   return std::min({w[0], w[1], w[2]}) >= -kOnEdge;
 }
 
-/// Where a straight way leads.
-struct Arrival {
-  int chart;
-  Transition change;  ///< from the chart where the way starts
-};
-
-/// Follows the straight way between two points given in one chart, of which the first lies in the chart's triangle, across
-/// base edges until the second lies in the triangle too. Nothing where the way leaves the base.
 std::optional<Arrival> follow(const BaseComplex& base, int chart, Complex from, Complex to) {
   Arrival at{chart, {}};
   int entered = -1;  // edge of the chart by which the way came in
@@ -49,8 +43,6 @@ std::optional<Arrival> follow(const BaseComplex& base, int chart, Complex from, 
   }
   return std::nullopt;
 }
-
-}  // namespace
 
 const BaseFan::Sector& BaseFan::sector(int s) const {
   const int k = valence();
@@ -98,20 +90,23 @@ void Atlas::change_chart(int vertex, int chart, const Transition& change) {
 
 bool Atlas::reassign(int vertex) {
   const Complex z = position[vertex];
-  if (inside(z)) return true;
+  if (inside_chart(z)) return true;
   bool found = false, corners_only = true;
   surface->for_each_neighbour(vertex, [&](int w, int edge, bool forward) {
     corners_only &= corner[w] >= 0;
-    if (found || corner[w] >= 0 || !inside(position[w])) return;
+    if (found || corner[w] >= 0 || !inside_chart(position[w])) return;
     const Transition to_neighbour = towards(edge, forward).inverse();
     const auto arrival = follow(base, patch[w], position[w], to_neighbour.apply(z));
     if (!arrival) return;
     change_chart(vertex, arrival->chart, arrival->change * to_neighbour);
     found = true;
   });
-  if (!corners_only) return found;
-  // Transitions at corners hold up to turns only; the way from the middle of the chart is short.
-  const auto arrival = follow(base, patch[vertex], chart_position(1.0 / 3.0, 1.0 / 3.0), z);
+  return corners_only ? reassign_from_middle(vertex) : found;
+}
+
+/// Transitions at corners hold up to turns only; the way from the middle of the chart is short.
+bool Atlas::reassign_from_middle(int vertex) {
+  const auto arrival = follow(base, patch[vertex], chart_position(1.0 / 3.0, 1.0 / 3.0), position[vertex]);
   if (arrival) change_chart(vertex, arrival->chart, arrival->change);
   return arrival.has_value();
 }
@@ -119,10 +114,14 @@ bool Atlas::reassign(int vertex) {
 int Atlas::reassign_all() {
   std::vector<int> outside;
   for (int v = 0; v < static_cast<int>(patch.size()); ++v)
-    if (is_free(v) && !inside(position[v])) outside.push_back(v);
-  for (std::size_t before = outside.size() + 1; outside.size() < before;) {
-    before = outside.size();
+    if (is_free(v) && !inside_chart(position[v])) outside.push_back(v);
+  while (!outside.empty()) {
+    const std::size_t before = outside.size();
     outside.erase(std::remove_if(outside.begin(), outside.end(), [&](int v) { return reassign(v); }), outside.end());
+    if (outside.size() < before) continue;
+    const auto stuck = std::find_if(outside.begin(), outside.end(), [&](int v) { return reassign_from_middle(v); });
+    if (stuck == outside.end()) break;
+    outside.erase(stuck);
   }
   return static_cast<int>(outside.size());
 }
@@ -132,66 +131,71 @@ Atlas::FaceFrame Atlas::face_frame(int face) const {
   int reference = 0;
   for (int k = 2; k >= 0; --k)
     if (corner[t[k]] < 0) reference = k;
+  const int out = 3 * face + reference, in = Halfedges::prev(out);
+  if (corner[t[reference]] >= 0)
+    return corner_frame(base, fans,
+                        {{corner[t[0]], corner[t[1]], corner[t[2]]}, {patch[t[0]], patch[t[1]], patch[t[2]]},
+                         {position[t[0]], position[t[1]], position[t[2]]}, along(out, false), along(in, true), along(3 * face + 1, false)});
   FaceFrame frame;
   frame.chart = patch[t[reference]];
-  const int out = 3 * face + reference, in = Halfedges::prev(out);
   frame.to_chart[(reference + 1) % 3] = along(out, false);
   frame.to_chart[(reference + 2) % 3] = along(in, true);
-  if (corner[t[reference]] >= 0) {
-    close_up(face, frame);
-    take_base_face(t, frame);
-  }
   return frame;
+}
+
+namespace {
+
+/// Turns the third corner about the first until the face's third edge closes up.
+void close_up(const std::vector<BaseFan>& fans, const Atlas::CornerFace& face, Atlas::FaceFrame& frame) {
+  const BaseFan &fan = fans[face.corner[0]], &fan1 = fans[face.corner[1]];
+  const auto turn = [&](const BaseFan& f, int chart, int sectors) {
+    const int s = f.find(chart);
+    return f.develop(s).inverse() * f.develop(s + sectors);
+  };
+  const Complex z1 = face.first.apply(face.position[1]);
+  const int turns = fan.boundary ? 1 : 6, turns1 = fan1.boundary ? 1 : 6;  // six turns are the identity
+  bool closed = false;
+  for (int m = 0; m < turns; ++m) {
+    const Transition candidate = turn(fan, frame.chart, m * fan.valence()) * face.third;
+    const Complex z2 = candidate.apply(face.position[2]);
+    for (int n = 0; n < turns1; ++n) {
+      const Transition other = face.first * turn(fan1, face.patch[1], n * fan1.valence()) * face.between;
+      if (std::abs(other.apply(face.position[2]) - z2) > 1e-9) continue;
+      const bool upright = chart_area(face.position[0], z1, z2) > 0.0;
+      if (closed && !upright) continue;
+      frame.to_chart[2] = candidate;
+      closed = true;
+      if (upright) return;
+    }
+  }
 }
 
 /// Where a face between patch corners is one of the base's, its chart is that one: the first corner's own chart could be told
 /// from it only by the way about the corner, which positions do not show.
-void Atlas::take_base_face(const Triangle& t, FaceFrame& frame) const {
+void take_base_face(const BaseComplex& base, const std::vector<BaseFan>& fans, const Atlas::CornerFace& face, Atlas::FaceFrame& frame) {
   std::array<Complex, 3> z;
-  for (int k = 0; k < 3; ++k) z[k] = frame.to_chart[k].apply(position[t[k]]);
+  for (int k = 0; k < 3; ++k) z[k] = frame.to_chart[k].apply(face.position[k]);
   for (int k = 0; k < 3; ++k)
     if (std::abs(std::abs(z[(k + 1) % 3] - z[k]) - 1.0) > 1e-9) return;
-  for (const BaseFan::Sector& s : fans[corner[t[0]]].sectors) {
+  for (const BaseFan::Sector& s : fans[face.corner[0]].sectors) {
     const Triangle& c = base.faces[s.face];
-    if (c[(s.corner + 1) % 3] != corner[t[1]] || c[(s.corner + 2) % 3] != corner[t[2]]) continue;
+    if (c[(s.corner + 1) % 3] != face.corner[1] || c[(s.corner + 2) % 3] != face.corner[2]) continue;
     frame.chart = s.face;
     for (int k = 0; k < 3; ++k) {
-      const BaseFan& fan = fans[corner[t[k]]];
-      frame.to_chart[k] = fan.develop(fan.find(s.face)).inverse() * fan.develop(fan.find(patch[t[k]]));
+      const BaseFan& fan = fans[face.corner[k]];
+      frame.to_chart[k] = fan.develop(fan.find(s.face)).inverse() * fan.develop(fan.find(face.patch[k]));
     }
     return;
   }
 }
 
-/// Turns the third of three patch corners about the first until the face's third edge closes up.
-void Atlas::close_up(int face, FaceFrame& frame) const {
-  const Triangle& t = surface->mesh.faces[face];
-  constexpr int reference = 0;
-  const BaseFan& fan = fans[corner[t[reference]]];
-  const BaseFan& fan1 = fans[corner[t[(reference + 1) % 3]]];
-  const auto turn = [&](const BaseFan& f, int chart, int sectors) {
-    const int s = f.find(chart);
-    return f.develop(s).inverse() * f.develop(s + sectors);
-  };
-  const Complex z0 = position[t[reference]], z1 = frame.to_chart[(reference + 1) % 3].apply(position[t[(reference + 1) % 3]]);
-  const Transition third = frame.to_chart[(reference + 2) % 3];
-  const Transition between = along(3 * face + 1, false);  // from the third's chart to the second's
-  const int turns = fan.boundary ? 1 : 6, turns1 = fan1.boundary ? 1 : 6;  // six turns are the identity
-  bool closed = false;
-  for (int m = 0; m < turns; ++m) {
-    const Transition candidate = turn(fan, frame.chart, m * fan.valence()) * third;
-    const Complex z2 = candidate.apply(position[t[(reference + 2) % 3]]);
-    for (int n = 0; n < turns1; ++n) {
-      const Transition other = frame.to_chart[(reference + 1) % 3] *
-                               turn(fan1, patch[t[(reference + 1) % 3]], n * fan1.valence()) * between;
-      if (std::abs(other.apply(position[t[(reference + 2) % 3]]) - z2) > 1e-9) continue;
-      const bool upright = chart_area(z0, z1, z2) > 0.0;
-      if (closed && !upright) continue;
-      frame.to_chart[(reference + 2) % 3] = candidate;
-      closed = true;
-      if (upright) return;
-    }
-  }
+}  // namespace
+
+Atlas::FaceFrame Atlas::corner_frame(const BaseComplex& base, const std::vector<BaseFan>& fans, const CornerFace& face) {
+  FaceFrame frame{face.patch[0], {Transition{}, face.first, face.third}};
+  close_up(fans, face, frame);
+  take_base_face(base, fans, face, frame);
+  return frame;
 }
 
 std::array<Complex, 3> Atlas::face_corners(int face, const FaceFrame& frame) const {

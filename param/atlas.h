@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "param/base_complex.h"
@@ -33,6 +35,18 @@ struct BaseFan {
 
 std::vector<BaseFan> base_fans(const BaseComplex& base);
 
+/// Whether a point lies in its chart's triangle, or outside by rounding.
+bool inside_chart(Complex z);
+
+/// Where a straight way leads.
+struct Arrival {
+  int chart;
+  Transition change;  ///< from the chart where the way starts
+};
+/// Follows the straight way between two points given in one chart, of which the first lies in the chart's triangle, across
+/// base edges until the second lies in the triangle too. Nothing where the way leaves the base.
+std::optional<Arrival> follow(const BaseComplex& base, int chart, Complex from, Complex to);
+
 /// A map in the making: every vertex of the surface has a chart and a position in it, every edge an exact change of chart.
 /// Moving a vertex to another chart changes the transitions of its edges by one composition and nothing else
 /// (algorithms.md §1).
@@ -41,6 +55,8 @@ class Atlas {
   std::shared_ptr<const Surface> surface;
   BaseComplex base;
   std::vector<BaseFan> fans;          ///< per base vertex
+  /// The vertices from here on were added to the surface for this map alone, and do not become patch corners.
+  int first_added = std::numeric_limits<int>::max();
   std::vector<int> corner;            ///< #V base vertex of a patch corner, -1 for all others
   std::vector<int> patch;             ///< #V chart; of a corner any around it; -1 for isolated vertices
   std::vector<Complex> position;      ///< #V in that chart
@@ -67,8 +83,8 @@ class Atlas {
   /// yet, or the way leaves the base.
   bool reassign(int vertex);
 
-  /// The same for all free vertices, from neighbour to neighbour. Returns how many still lie outside: 0 for a map without
-  /// folds.
+  /// The same for all free vertices, from neighbour to neighbour; where the neighbours of some are all outside or patch corners
+  /// their way starts in the middle of their charts too. Returns how many still lie outside.
   int reassign_all();
 
   /// Transitions of the face's corners into a common chart, that of corner `reference` (0..2). Around a face no corner of
@@ -78,6 +94,15 @@ class Atlas {
     std::array<Transition, 3> to_chart;
   };
   FaceFrame face_frame(int face) const;
+  /// The frame of a face between three patch corners, whose transitions hold up to turns about them. By corner of the face:
+  /// base vertex, chart and position in it; `first`, `third`: from the charts of corners 1 and 2 to that of corner 0,
+  /// `between`: from that of 2 to that of 1.
+  struct CornerFace {
+    std::array<int, 3> corner, patch;
+    std::array<Complex, 3> position;
+    Transition first, third, between;
+  };
+  static FaceFrame corner_frame(const BaseComplex& base, const std::vector<BaseFan>& fans, const CornerFace& face);
   std::array<Complex, 3> face_corners(int face, const FaceFrame& frame) const;
 
   /// Number of faces without patch corners around which the transitions do not compose to the identity: 0 always holds.
@@ -86,13 +111,12 @@ class Atlas {
   Parameterization finish(std::vector<std::string> provenance) const;
 
  private:
+  bool reassign_from_middle(int vertex);
   /// From the chart of a half-edge's head to that of its tail, or back.
   Transition along(int h, bool reverse) const {
     const int edge = surface->edge_of[h];
     return towards(edge, (surface->edge_halfedge[edge] == h) != reverse);
   }
-  void close_up(int face, FaceFrame& frame) const;
-  void take_base_face(const Triangle& t, FaceFrame& frame) const;
 };
 
 /// The atlas of a map every face of which lies in one base face, whose chart it is given in, such as that of a remesh onto

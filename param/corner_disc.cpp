@@ -162,11 +162,13 @@ bool CornerDisc::embedded() const {
   return true;
 }
 
-int CornerDisc::nearest_to_center() const {
+int CornerDisc::nearest_to(Complex place) const {
   int nearest = 0;
-  for (std::size_t i = 1; i < vertices_.size(); ++i)
-    if (vertices_[i].inside && std::norm(vertices_[i].disc) < std::norm(vertices_[nearest].disc))
+  for (std::size_t i = 1; i < vertices_.size(); ++i) {
+    const Vertex& v = vertices_[i];
+    if (v.inside && v.vertex < atlas_.first_added && std::norm(v.disc - place) < std::norm(vertices_[nearest].disc - place))
       nearest = static_cast<int>(i);
+  }
   return nearest;
 }
 

@@ -34,8 +34,8 @@ class CornerDisc {
   bool solve(const LinearWeights& weights);
   /// Whether every face that touches the inside is upright in the disc.
   bool embedded() const;
-  /// The inside vertex nearest the middle, as an index into `vertices`.
-  int nearest_to_center() const;
+  /// The vertex nearest a place of those inside that may become the corner, as an index into `vertices`; 0 where there is none.
+  int nearest_to(Complex place) const;
   /// Moves the disc's middle so that a vertex lies at 0: a shift that fades out smoothly toward the rim. False, and nothing
   /// is changed, where the vertex is too near the rim.
   bool draw_to_center(int index);

@@ -101,15 +101,6 @@ class Descent {
   std::vector<Face> faces_;
 };
 
-int nearest_inside(const CornerDisc& disc, Complex target) {
-  int nearest = 0;
-  for (int i = 1; i < static_cast<int>(disc.vertices().size()); ++i) {
-    const CornerDisc::Vertex& v = disc.vertices()[i];
-    if (v.inside && std::norm(v.disc - target) < std::norm(disc.vertices()[nearest].disc - target)) nearest = i;
-  }
-  return nearest;
-}
-
 bool descend(CornerDisc disc, Objective objective, double scale, CornerMove& move) {
   if (disc.fan().boundary || !disc.collect() || !disc.embedded()) return false;
   const Descent descent(disc, objective, scale);
@@ -118,7 +109,7 @@ bool descend(CornerDisc disc, Objective objective, double scale, CornerMove& mov
   if (!(std::abs(gradient) > 0.0) || !std::isfinite(before)) return false;
   int last = 0;
   for (double step : kSteps) {
-    const int candidate = nearest_inside(disc, -step * disc.rim() * gradient / std::abs(gradient));
+    const int candidate = disc.nearest_to(-step * disc.rim() * gradient / std::abs(gradient));
     if (candidate == 0 || candidate == last) continue;
     last = candidate;
     const double slope = vector(gradient).dot(vector(disc.vertices()[candidate].disc));

@@ -31,8 +31,8 @@ double shape_distortion(const Vec3& a, const Vec3& b, const Vec3& c, double area
 }  // namespace
 
 Pricer::Pricer(const Surface& surface, const TriangleComplex& complex, const std::vector<Location>& locations,
-               const std::vector<std::vector<int>>& points, const ParameterizeOptions& options, bool chords)
-    : surface_(surface), complex_(complex), locations_(locations), points_(points), options_(options), chords_(chords) {}
+               const std::vector<std::vector<int>>& points, const ParameterizeOptions& options)
+    : surface_(surface), complex_(complex), locations_(locations), points_(points), options_(options) {}
 
 bool Pricer::flat_of(int vertex, Complex& flat) const {
   if (vertex == star_.center) {

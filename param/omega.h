@@ -17,8 +17,7 @@ struct Candidate {
 /// Prices vertex removals with the paper's Ω (§3.1.1): σ, ρ and δ shifted to zero, weighted by the patch areas. The hole is
 /// filled by the triangulation of least Σ A (γ(σ-1)² + μ(ρ-1)² + (δ-1)²), found by dynamic programming over the flattened ring
 /// (ρ between two new triangles is left out there, and counted in the price). δ is measured on at most `kSamples` points of
-/// the star, evenly strided, so that late removals with large patches stay cheap. `chords`: whether an edge inside the complex may
-/// join two of its boundary vertices. Safe to use from several threads, one
+/// the star, evenly strided, so that late removals with large patches stay cheap. Safe to use from several threads, one
 /// pricer each.
 class Pricer {
  public:
@@ -26,7 +25,10 @@ class Pricer {
   static constexpr int kLargestRing = 32;
 
   Pricer(const Surface& surface, const TriangleComplex& complex, const std::vector<Location>& locations,
-         const std::vector<std::vector<int>>& points, const ParameterizeOptions& options, bool chords);
+         const std::vector<std::vector<int>>& points, const ParameterizeOptions& options);
+
+  /// From here on an edge inside the complex may join two of its boundary vertices.
+  void allow_chords() { chords_ = true; }
 
   /// `candidate`: with parts and triangles where it is feasible.
   void price(int vertex, Candidate& candidate);
@@ -61,7 +63,7 @@ class Pricer {
   const std::vector<Location>& locations_;
   const std::vector<std::vector<int>>& points_;
   const ParameterizeOptions& options_;
-  bool chords_;
+  bool chords_ = false;
 
   Star star_;
   std::vector<Complex> ring_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "mesh/error.h"
-#include "param/composition.h"
 #include "param/flatten.h"
 
 namespace gsp {
@@ -171,19 +170,6 @@ bool OverlayMap::remove(const Removal& removal) {
   return true;
 }
 
-std::vector<double> OverlayMap::areas() const {
-  std::vector<double> areas(pieces_.size(), 0.0);
-  for (std::size_t t = 0; t < pieces_.size(); ++t)
-    for (int f : pieces_[t]) {
-      if (!refined_->alive(f)) continue;
-      const int origin = refined_->origin(f);
-      const Triangle& c = refined_->corners(f);
-      const auto a = refined_->weights_in(c[0], origin), b = refined_->weights_in(c[1], origin), d = refined_->weights_in(c[2], origin);
-      areas[t] += surface_->face_area[origin] * ((b[1] - a[1]) * (d[2] - a[2]) - (b[2] - a[2]) * (d[1] - a[1]));
-    }
-  return areas;
-}
-
 /// Where a vertex lies in its home chart.
 Complex OverlayMap::home_position(const Atlas& atlas, int v, const Place& at) {
   const Triangle& face = atlas.base.faces[atlas.patch[v]];
@@ -212,6 +198,7 @@ Transition OverlayMap::to_home(const Atlas& atlas, int v, int chart, const Place
 Atlas OverlayMap::atlas_on(const RefinedSurface::Compact& compact) const {
   Atlas atlas;
   atlas.surface = std::make_shared<const Surface>(compact.mesh);
+  atlas.first_added = surface_->mesh.vertex_count();
   const Surface& surface = *atlas.surface;
   const int count = surface.mesh.vertex_count();
   std::vector<Place> place(count);
@@ -256,12 +243,6 @@ RefinedMap OverlayMap::coarsened() && {
   RefinedSurface::Compact compact = refined_->compact();
   Atlas atlas = atlas_on(compact);
   return coarsen({std::move(*refined_), std::move(atlas), std::move(compact.vertex), std::move(compact.halfedge)});
-}
-
-std::optional<RefinedMap> OverlayMap::followed_by(const RefinedMap& map) && {
-  Composition composition(*this, map);
-  if (!composition.cut()) return std::nullopt;
-  return coarsen(composition.finish());
 }
 
 }  // namespace gsp

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "param/atlas.h"
@@ -28,9 +27,6 @@ class OverlayMap {
 
   const std::shared_ptr<const Surface>& surface() const { return surface_; }
   const TriangleComplex& complex() const { return complex_; }
-  /// Per triangle of the complex, the area of the part of the surface in it. O(pieces).
-  std::vector<double> areas() const;
-
   /// The map onto the present complex. The surface's own vertices come first, then those that cuts have added. O(V).
   Atlas atlas() const { return atlas_on(refined_->compact()); }
 
@@ -39,10 +35,6 @@ class OverlayMap {
   /// The same without the added vertices that the map does not need (`gsp::coarsen`).
   RefinedMap coarsened() &&;
 
-  /// The map followed by one of the complex, as `coarse_surface` makes a surface of it, onto a base. The pieces are cut once
-  /// more where the second map bends within a triangle. Nothing where rounding would spoil a piece. O(V).
-  std::optional<RefinedMap> followed_by(const RefinedMap& map) &&;
-
  private:
   /// Where a vertex lies on the complex: in a triangle, on an edge between two of its vertices, or at one.
   struct Place {
@@ -50,8 +42,6 @@ class OverlayMap {
     int a = -1, b = -1;
     double weight1 = 0.0, weight2 = 0.0;  ///< of the triangle's corners 1 and 2; on an edge weight1 is that of b
   };
-  friend class Composition;
-
   static bool on_side(const Place& at, int a, int b);
   static Complex home_position(const Atlas& atlas, int v, const Place& at);
   static Transition to_home(const Atlas& atlas, int v, int chart, const Place& at);

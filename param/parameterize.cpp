@@ -21,7 +21,6 @@ namespace gsp {
 
 namespace {
 
-constexpr int kLevels = 2;                  // of the simplification, of which the coarser one is smoothed as a whole
 constexpr int kAutomaticShare = 64;         // vertices per base vertex, of which the automatic stop falls short or not
 constexpr int kPairPasses = 3;              // of the hybrid baseline; more bring it nearer to the global solution
 constexpr double kLongestEdge = 0.25;       // of the edge of an equilateral patch of mean area
@@ -89,8 +88,9 @@ Mesh refined(Mesh mesh, const ParameterizeOptions& options, Progress& progress) 
 Start make_start(const Mesh& mesh, const std::vector<Method>& methods, const ParameterizeOptions& options,
                  Progress& progress) {
   const auto surface = std::make_shared<const Surface>(refined(mesh, options, progress));
+  const int whole = surface->mesh.vertex_count();  // as the coarsest level: the only one
   const auto injective = std::count(methods.begin(), methods.end(), Method::Gsp);
-  SimplifyResult simplified = simplify(surface, options, injective > 0 ? kLevels : 1, progress);
+  SimplifyResult simplified = simplify(surface, options, injective > 0 ? coarsest_level(*surface, options) : whole, progress);
   Start start;
   start.omega = std::move(simplified.omega);
   start.base_vertices = remaining_vertices(*surface, simplified.removals);
@@ -99,7 +99,10 @@ Start make_start(const Mesh& mesh, const std::vector<Method>& methods, const Par
     ParameterizeOptions smoothing = options;
     if (options.objective == Objective::Linear) smoothing.relaxations = 0;  // it relaxes the corners of its own solution
     std::optional<SmoothedMap> smoothed = smooth_levels(std::move(simplified), smoothing, progress);
-    if (!smoothed) smoothed = smooth_levels(simplify(surface, options, 1, progress), smoothing, progress);
+    if (!smoothed || !check_map(smoothed->atlas.finish({})).valid()) {
+      progress.note("the levels of the map could not be joined; the surface is simplified again, in one");
+      smoothed = smooth_levels(simplify(surface, options, whole, progress), smoothing, progress);
+    }
     start.rounds = smoothed->rounds;
     start.injective = std::move(smoothed->atlas);
     const int added = start.injective->surface->mesh.vertex_count() - surface->mesh.vertex_count();

@@ -10,12 +10,19 @@ constexpr double kSmallestPiece = 1e-9;  // of an original face
 
 RefinedSurface::RefinedSurface(std::shared_ptr<const Surface> original)
     : original_(std::move(original)),
-      faces_(original_->mesh.faces),
-      twin_(original_->halfedges.twin),
-      outgoing_(original_->halfedges.outgoing),
-      origin_(faces_.size()),
+      links_{original_->mesh.faces, original_->halfedges.twin, original_->halfedges.outgoing},
+      origin_(links_.faces.size()),
       support_(original_->mesh.positions.size()) {
   for (std::size_t f = 0; f < origin_.size(); ++f) origin_[f] = static_cast<int>(f);
+}
+
+RefinedSurface::RefinedSurface(std::shared_ptr<const Surface> original, TriangleLinks links, std::vector<int> origin,
+                               const std::vector<Point>& added)
+    : original_(std::move(original)),
+      links_(std::move(links)),
+      origin_(std::move(origin)),
+      support_(original_->mesh.positions.size()) {
+  for (const Point& at : added) support_.push_back(support_of(at));
 }
 
 std::array<double, 3> RefinedSurface::weights_in(int v, int original_face) const {
@@ -36,84 +43,49 @@ std::array<double, 3> RefinedSurface::weights_in(int v, int original_face) const
   return weights;
 }
 
-void RefinedSurface::join(int a, int b) {
-  if (a >= 0) twin_[a] = b;
-  if (b >= 0) twin_[b] = a;
-}
-
-/// Cuts the face of h = (a, b), apex c, into (a, m, c) in its place and (m, b, c) as a new one.
-void RefinedSurface::halve(int h, int middle) {
-  const int f = h / 3, g = face_slots();
-  const int b = to(h), c = from(Halfedges::prev(h)), next = Halfedges::next(h);
-  faces_.push_back({middle, b, c});
-  origin_.push_back(origin_[f]);
-  faces_[f][next % 3] = middle;
-  twin_.resize(twin_.size() + 3, -1);
-  join(3 * g + 1, twin_[next]);
-  join(next, 3 * g + 2);
-  outgoing_[b] = 3 * g + 1;
-  outgoing_[c] = 3 * g + 2;
-}
-
-/// A vertex at a place of an original face, on whose border it lies where a weight is zero.
-int RefinedSurface::add_vertex(int original_face, const std::array<double, 3>& weights) {
+RefinedSurface::Support RefinedSurface::support_of(const Point& at) const {
   Support support;
   for (int k = 0; k < 3; ++k) {
-    if (weights[(k + 2) % 3] != 0.0) continue;
-    const int h = 3 * original_face + k;
+    if (at.weights[(k + 2) % 3] != 0.0) continue;
+    const int h = 3 * at.face + k;
     support.edge = original_->edge_of[h];
-    support.weight[0] = original_->edge_halfedge[support.edge] == h ? weights[(k + 1) % 3] : weights[k];
+    support.weight[0] = original_->edge_halfedge[support.edge] == h ? at.weights[(k + 1) % 3] : at.weights[k];
   }
   if (support.edge < 0) {
-    support.face = original_face;
-    support.weight = {weights[1], weights[2]};
+    support.face = at.face;
+    support.weight = {at.weights[1], at.weights[2]};
   }
-  support_.push_back(support);
-  outgoing_.push_back(-1);
+  return support;
+}
+
+int RefinedSurface::add_vertex(const Point& at) {
+  support_.push_back(support_of(at));
+  links_.outgoing.push_back(-1);
   return vertex_count() - 1;
 }
 
 int RefinedSurface::insert(int face, const std::array<double, 3>& weights) {
-  const Triangle t = faces_[face];
+  const Triangle t = links_.faces[face];
   std::array<double, 3> place{};
   for (int k = 0; k < 3; ++k) {
     const std::array<double, 3> w = weights_in(t[k], origin_[face]);
     for (int i = 0; i < 3; ++i) place[i] += weights[k] * w[i];
   }
-  const int middle = add_vertex(origin_[face], place), second = face_slots(), third = second + 1;
-  faces_[face] = {t[0], t[1], middle};
-  faces_.push_back({t[1], t[2], middle});
-  faces_.push_back({t[2], t[0], middle});
-  const int origin = origin_[face];
-  origin_.resize(faces_.size(), origin);
-  twin_.resize(3 * faces_.size(), -1);
-  join(3 * second, twin_[3 * face + 1]);
-  join(3 * third, twin_[3 * face + 2]);
-  join(3 * face + 1, 3 * second + 2);
-  join(3 * second + 1, 3 * third + 2);
-  join(3 * third + 1, 3 * face + 2);
-  outgoing_[t[0]] = 3 * face;
-  outgoing_[t[1]] = 3 * second;
-  outgoing_[t[2]] = 3 * third;
-  outgoing_[middle] = 3 * face + 2;
+  const int middle = add_vertex({origin_[face], place}), origin = origin_[face];
+  links_.insert(face, middle);
+  origin_.resize(links_.faces.size(), origin);
   return middle;
 }
 
 int RefinedSurface::split(int h, double share) {
-  const int twin = twin_[h], a = from(h), b = to(h), face = origin_[h / 3];
-  const std::array<double, 3> wa = weights_in(a, face), wb = weights_in(b, face);
+  const int face = origin_[h / 3], other = origin_[links_.twin[h] / 3];
+  const std::array<double, 3> wa = weights_in(from(h), face), wb = weights_in(to(h), face);
   std::array<double, 3> w;
   for (int k = 0; k < 3; ++k) w[k] = (1.0 - share) * wa[k] + share * wb[k];
-  const int middle = add_vertex(face, w);
-  halve(h, middle);
-  const int second = 3 * (face_slots() - 1);  // (m, b)
-  halve(twin, middle);
-  const int fourth = 3 * (face_slots() - 1);  // (m, a)
-  join(h, fourth);
-  join(second, twin);
-  outgoing_[middle] = second;
-  outgoing_[a] = h;
-  outgoing_[b] = twin;
+  const int middle = add_vertex({face, w});
+  links_.split(h, middle);
+  origin_.push_back(face);
+  origin_.push_back(other);
   return middle;
 }
 
@@ -122,27 +94,27 @@ RefinedSurface::Snapshot RefinedSurface::snapshot(const std::vector<int>& faces,
   snapshot.faces_ = faces;
   snapshot.vertices_ = vertices;
   for (int f : faces) {
-    snapshot.corners_.push_back(faces_[f]);
-    for (int k = 0; k < 3; ++k) snapshot.twin_.push_back(twin_[3 * f + k]);
+    snapshot.corners_.push_back(links_.faces[f]);
+    for (int k = 0; k < 3; ++k) snapshot.twin_.push_back(links_.twin[3 * f + k]);
   }
-  for (int v : vertices) snapshot.outgoing_.push_back(outgoing_[v]);
+  for (int v : vertices) snapshot.outgoing_.push_back(links_.outgoing[v]);
   snapshot.face_slots_ = face_slots();
   snapshot.vertex_count_ = vertex_count();
   return snapshot;
 }
 
 void RefinedSurface::restore(const Snapshot& snapshot) {
-  faces_.resize(snapshot.face_slots_);
+  links_.faces.resize(snapshot.face_slots_);
   origin_.resize(snapshot.face_slots_);
-  twin_.resize(3 * static_cast<std::size_t>(snapshot.face_slots_));
+  links_.twin.resize(3 * static_cast<std::size_t>(snapshot.face_slots_));
   support_.resize(snapshot.vertex_count_);
-  outgoing_.resize(snapshot.vertex_count_);
+  links_.outgoing.resize(snapshot.vertex_count_);
   for (std::size_t i = 0; i < snapshot.faces_.size(); ++i) {
     const int f = snapshot.faces_[i];
-    faces_[f] = snapshot.corners_[i];
-    for (int k = 0; k < 3; ++k) join(3 * f + k, snapshot.twin_[3 * i + k]);
+    links_.faces[f] = snapshot.corners_[i];
+    for (int k = 0; k < 3; ++k) links_.join(3 * f + k, snapshot.twin_[3 * i + k]);
   }
-  for (std::size_t i = 0; i < snapshot.vertices_.size(); ++i) outgoing_[snapshot.vertices_[i]] = snapshot.outgoing_[i];
+  for (std::size_t i = 0; i < snapshot.vertices_.size(); ++i) links_.outgoing[snapshot.vertices_[i]] = snapshot.outgoing_[i];
 }
 
 bool RefinedSurface::can_collapse(int h) const {
@@ -155,7 +127,6 @@ bool RefinedSurface::can_collapse(int h) const {
       along |= original_->edge_of[3 * face + k] == support_[m].edge && weights_in(n, face)[(k + 2) % 3] == 0.0;
     if (!along) return false;
   }
-  const int c = from(Halfedges::prev(h)), d = from(Halfedges::prev(twin_[h]));
   bool possible = true;
   for_each_outgoing(m, [&](int out) {
     const int x = to(out), y = from(Halfedges::prev(out));
@@ -167,33 +138,10 @@ bool RefinedSurface::can_collapse(int h) const {
     // A new edge between two vertices of a boundary would leave its face no area where the boundary is straight.
     possible &= !boundary(n) || !(boundary(x) || boundary(y));
   });
-  if (!possible) return false;
-  // The two ends may share no neighbours but those of the two faces that die.
-  for_each_outgoing(n, [&](int out) {
-    const int w = to(out);
-    if (w == m || w == c || w == d) return;
-    for_each_outgoing(m, [&](int other) { possible &= to(other) != w; });
-  });
-  return possible;
+  return possible && links_.ends_apart(h, boundary(n));
 }
 
-void RefinedSurface::collapse(int h) {
-  const int m = from(h), n = to(h);
-  std::vector<int> around;
-  for_each_outgoing(m, [&](int out) { around.push_back(out); });
-  for (int out : around) faces_[out / 3][out % 3] = n;
-  for (int side : {h, twin_[h]}) {
-    const int after = twin_[Halfedges::next(side)], before = twin_[Halfedges::prev(side)];
-    join(after, before);
-    for (int out : {after, before}) {
-      if (out < 0) continue;
-      outgoing_[from(out)] = out;
-      outgoing_[to(out)] = twin_[out] >= 0 ? twin_[out] : Halfedges::next(out);
-    }
-  }
-  faces_[h / 3] = faces_[twin_[h] / 3] = {-1, -1, -1};
-  outgoing_[m] = -1;
-}
+void RefinedSurface::collapse(int h) { links_.collapse(h); }
 
 RefinedSurface::Compact RefinedSurface::compact() const {
   Compact result;
@@ -212,8 +160,8 @@ RefinedSurface::Compact RefinedSurface::compact() const {
   }
   slots.insert(slots.end(), further.begin(), further.end());
   for (int v = mesh.vertex_count(); v < vertex_count(); ++v) {
-    if (outgoing_[v] < 0) continue;
-    const int face = origin_[outgoing_[v] / 3];
+    if (links_.outgoing[v] < 0) continue;
+    const int face = origin_[links_.outgoing[v] / 3];
     const auto w = weights_in(v, face);
     const Triangle& t = mesh.faces[face];
     result.vertex[v] = result.mesh.vertex_count();
@@ -221,7 +169,7 @@ RefinedSurface::Compact RefinedSurface::compact() const {
                                     w[2] * mesh.positions[t[2]]);
   }
   for (int f : slots) {
-    const Triangle& t = faces_[f];
+    const Triangle& t = links_.faces[f];
     result.mesh.faces.push_back({result.vertex[t[0]], result.vertex[t[1]], result.vertex[t[2]]});
     for (int k = 0; k < 3; ++k) result.halfedge.push_back(3 * f + k);
   }

@@ -15,7 +15,7 @@ constexpr double kShrink[] = {1.0, 0.6, 0.36};  // of the radius, where a larger
 /// moves the corner. False where the region is no disc or nothing would change for the better.
 bool relax(CornerDisc disc, const LinearWeights& weights, CornerMove& move) {
   if (!disc.collect() || !disc.solve(weights) || !disc.embedded()) return false;
-  const int nearest = disc.fan().boundary ? 0 : disc.nearest_to_center();
+  const int nearest = disc.fan().boundary ? 0 : disc.nearest_to(0.0);
   CornerDisc drawn = disc;
   if (drawn.draw_to_center(nearest) && drawn.embedded() && drawn.upright_in_plane(nearest))
     return make_move(drawn, nearest, move);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <queue>
 
 #include "mesh/error.h"
@@ -19,64 +20,68 @@ struct Entry {
   int vertex;
   int stamp;
   /// Least cost first, then the smaller vertex, so that the order is a function of the surface alone.
-  bool operator<(const Entry& other) const {
-    return cost != other.cost ? cost > other.cost : vertex > other.vertex;
-  }
+  bool operator<(const Entry& other) const { return cost != other.cost ? cost > other.cost : vertex > other.vertex; }
 };
 
-constexpr int kRatio = 8;             // vertices of one level for each of the next
+constexpr int kRatio = 8;  // most vertices of one level for each of the next
+constexpr int kAutomaticRatio =
+    16;  // of the surface for each of the coarsest level, where the base's size is not known before
 constexpr int kSmallestLevel = 4000;
-constexpr int kLevelPerBase = 8;      // vertices of the coarsest level but the base for each of the base
+constexpr int kLevelPerBase = 16;  // vertices of the coarsest level for each of the base
 
-/// What all levels share.
-struct Run {
-  const ParameterizeOptions& options;
-  Progress& progress;
-  AutomaticStop stop;
-  SimplifyResult result;
-  int start;       ///< vertices of the finest surface
-  bool ended = false;
-};
+int used_vertices(const Surface& surface) {
+  return static_cast<int>(std::count_if(surface.halfedges.outgoing.begin(), surface.halfedges.outgoing.end(),
+                                        [](int h) { return h >= 0; }));
+}
 
-/// Removes vertices of one level.
 class Simplifier {
  public:
-  /// `finest`: per vertex of the surface, its number in the finest one. `target`: vertices to stop at. `last`: the complex
-  /// that remains will be the base.
-  Simplifier(std::shared_ptr<const Surface> surface, const std::vector<int>& finest, int target, bool last, Run& run)
+  Simplifier(std::shared_ptr<const Surface> surface, const ParameterizeOptions& options, Progress& progress)
       : surface_(surface),
-        finest_(finest),
-        target_(target),
-        run_(run),
+        options_(options),
+        progress_(progress),
         map_(surface, false),
-        overlay_(surface),
-        pricer_(*surface_, map_.complex(), map_.locations(), map_.points(), run_.options, last) {}
+        pricer_(*surface_, map_.complex(), map_.locations(), map_.points(), options_),
+        stop_(used_vertices(*surface)),
+        start_(used_vertices(*surface)),
+        remaining_(start_) {}
 
-  OverlayMap run() {
-    price_all();
-    remove_until_done();
-    return std::move(overlay_);
-  }
+  SimplifyResult run(int coarsest);
 
  private:
+  /// Numbers of the present level's surface.
+  struct Level {
+    std::shared_ptr<const Surface> surface;
+    std::vector<int> vertex;  ///< per vertex of the finest surface
+    std::vector<int> face;    ///< per triangle of the complex
+  };
+
   void price_all();
-  void remove_until_done();
+  void remove_down_to(int target);
   bool remove(int vertex);
+  Star of_level(const Star& star) const;
+  bool remove_from_overlay(const Star& star);
+  void end_level();
 
   std::shared_ptr<const Surface> surface_;
-  const std::vector<int>& finest_;
-  const int target_;
-  Run& run_;
+  const ParameterizeOptions& options_;
+  Progress& progress_;
   ShrinkingMap map_;
-  OverlayMap overlay_;
   Pricer pricer_;
+  AutomaticStop stop_;
+  const int start_;  ///< vertices of the surface
+  int remaining_;
+  bool ended_ = false;  ///< by the automatic stop
+  SimplifyResult result_;
+  Level level_;
+  Decimation decimation_;  ///< of the present level, but for the last one
+
   Candidate candidate_;
   std::vector<int> stamp_;
-  std::vector<char> stale_;   ///< its star changed since it was priced
+  std::vector<char> stale_;  ///< its star changed since it was priced
   std::vector<char> queued_;
   std::priority_queue<Entry> queue_;
   std::vector<Triangle> filling_;
-  int remaining_ = 0;
 };
 
 void Simplifier::price_all() {
@@ -96,16 +101,15 @@ void Simplifier::price_all() {
   queued_.assign(count, 0);
   for (int v = 0; v < count; ++v) {
     if (surface_->halfedges.outgoing[v] < 0) continue;
-    ++remaining_;
     if (cost[v] < 0.0) continue;
     queue_.push({cost[v], v, 0});
     queued_[v] = 1;
   }
 }
 
-void Simplifier::remove_until_done() {
-  std::vector<OmegaRecord>& record = run_.result.omega;
-  while (remaining_ > target_ && !queue_.empty()) {
+void Simplifier::remove_down_to(int target) {
+  std::vector<OmegaRecord>& record = result_.omega;
+  while (!ended_ && remaining_ > target && !queue_.empty()) {
     const Entry top = queue_.top();
     queue_.pop();
     if (top.stamp != stamp_[top.vertex]) continue;
@@ -119,29 +123,54 @@ void Simplifier::remove_until_done() {
       continue;
     }
     candidate_.parts.remaining_vertices = remaining_ - 1;
-    if (run_.options.base_vertices == 0 && run_.stop.reached(candidate_.parts)) {
+    if (options_.base_vertices == 0 && stop_.reached(candidate_.parts)) {
       record.push_back(candidate_.parts);
-      run_.ended = true;
+      ended_ = true;
       return;
     }
     if (!remove(top.vertex)) continue;
     record.push_back(candidate_.parts);
     if (record.size() % 4096 == 0)
-      run_.progress.report("simplify", double(record.size()) / (run_.start - run_.options.base_vertices));
+      progress_.report("simplify", double(record.size()) / (start_ - options_.base_vertices));
   }
 }
 
+/// A star by the numbers of the level's surface.
+Star Simplifier::of_level(const Star& star) const {
+  Star there = star;
+  there.center = level_.vertex[star.center];
+  for (int& v : there.ring) v = level_.vertex[v];
+  for (int& t : there.triangles) t = level_.face[t];
+  return there;
+}
+
+/// The same removal by the overlay's complex, which may start its ring elsewhere.
+bool Simplifier::remove_from_overlay(const Star& star) {
+  Star there;
+  result_.map->complex().gather(level_.vertex[star.center], there);
+  Removal removal{there.center, candidate_.triangles};
+  for (RingTriangle& t : removal.triangles) {
+    for (int& k : t)
+      k = static_cast<int>(std::find(there.ring.begin(), there.ring.end(), level_.vertex[star.ring[k]]) -
+                           there.ring.begin());
+    std::sort(t.begin(), t.end());
+  }
+  return result_.map->remove(removal);
+}
+
 bool Simplifier::remove(int vertex) {
-  const Removal removal{vertex, candidate_.triangles};
-  if (!overlay_.remove(removal)) return false;
-  map_.remove(removal);
-  const std::vector<int>& ring = pricer_.star().ring;
+  const Star& star = pricer_.star();
+  if (!result_.map)
+    decimation_.add(of_level(star), candidate_.triangles);
+  else if (!remove_from_overlay(star))
+    return false;
+  map_.remove({vertex, candidate_.triangles});
   filling_.clear();
   for (const RingTriangle& t : candidate_.triangles)
-    filling_.push_back({finest_[ring[t[0]]], finest_[ring[t[1]]], finest_[ring[t[2]]]});
-  run_.result.removals.add(finest_[vertex], filling_);
+    filling_.push_back({star.ring[t[0]], star.ring[t[1]], star.ring[t[2]]});
+  result_.removals.add(vertex, filling_);
   --remaining_;
-  for (int neighbour : ring) {
+  for (int neighbour : star.ring) {
     stale_[neighbour] = 1;
     if (queued_[neighbour]) continue;
     // It could not be removed before; in its new star it may be.
@@ -151,8 +180,44 @@ bool Simplifier::remove(int vertex) {
   return true;
 }
 
-int used_vertices(const Surface& surface) {
-  return static_cast<int>(std::count_if(surface.halfedges.outgoing.begin(), surface.halfedges.outgoing.end(), [](int h) { return h >= 0; }));
+/// The complex becomes the surface of the next level.
+void Simplifier::end_level() {
+  CoarseSurface coarse = coarse_surface(map_);
+  Level next{coarse.surface, std::vector<int>(level_.vertex.size(), -1), std::vector<int>(level_.face.size(), -1)};
+  for (std::size_t v = 0; v < coarse.vertex.size(); ++v) next.vertex[coarse.vertex[v]] = static_cast<int>(v);
+  for (std::size_t f = 0; f < coarse.slot.size(); ++f) next.face[coarse.slot[f]] = static_cast<int>(f);
+  for (int& v : coarse.vertex) v = level_.vertex[v];
+  for (int& t : coarse.slot) t = level_.face[t];
+  decimation_.coarse = std::move(coarse);
+  result_.finer.push_back(std::move(decimation_));
+  level_ = std::move(next);
+  decimation_ = {};
+  decimation_.surface = level_.surface;
+}
+
+SimplifyResult Simplifier::run(int coarsest) {
+  level_.surface = decimation_.surface = surface_;
+  level_.vertex.resize(surface_->mesh.positions.size());
+  level_.face.resize(surface_->mesh.faces.size());
+  std::iota(level_.vertex.begin(), level_.vertex.end(), 0);
+  std::iota(level_.face.begin(), level_.face.end(), 0);
+  price_all();
+  while (!ended_ && remaining_ > coarsest) {
+    const int before = remaining_;
+    remove_down_to(std::max(coarsest, remaining_ / kRatio));
+    if (before == remaining_) break;
+    end_level();
+    if (queue_.empty()) break;
+  }
+  result_.map.emplace(level_.surface);
+  pricer_.allow_chords();
+  for (int v = 0; v < static_cast<int>(queued_.size()); ++v)  // what could not be removed before may be now
+    if (!queued_[v] && level_.vertex[v] >= 0) {
+      queue_.push({0.0, v, ++stamp_[v]});
+      stale_[v] = queued_[v] = 1;
+    }
+  remove_down_to(std::max(options_.base_vertices, 4));
+  return std::move(result_);
 }
 
 }  // namespace
@@ -175,25 +240,16 @@ void RemovalScript::place(int removal, const Star& star, Removal& made) const {
   }
 }
 
-SimplifyResult simplify(std::shared_ptr<const Surface> surface, const ParameterizeOptions& options, int most_levels,
+SimplifyResult simplify(std::shared_ptr<const Surface> surface, const ParameterizeOptions& options, int coarsest,
                         Progress& progress) {
-  const int start = used_vertices(*surface);
-  Run run{options, progress, AutomaticStop(start), {}, start};
-  const int base = std::max(options.base_vertices, 4);
-  std::vector<int> finest(surface->mesh.positions.size());
-  std::iota(finest.begin(), finest.end(), 0);
-  for (bool stuck = false;;) {
-    const int count = used_vertices(*surface);
-    const int next = std::max({count / kRatio, kSmallestLevel, kLevelPerBase * base});
-    const bool last = static_cast<int>(run.result.levels.size()) + 1 >= most_levels || stuck || 2 * next > count;
-    run.result.levels.push_back(Simplifier(surface, finest, last ? base : next, last, run).run());
-    if (last || run.ended) return std::move(run.result);
-    CoarseSurface coarse = coarse_surface(run.result.levels.back());
-    stuck = 2 * static_cast<int>(coarse.vertex.size()) > count;
-    for (int& v : coarse.vertex) v = finest[v];
-    finest = std::move(coarse.vertex);
-    surface = std::move(coarse.surface);
-  }
+  return Simplifier(std::move(surface), options, progress).run(coarsest);
+}
+
+int coarsest_level(const Surface& surface, const ParameterizeOptions& options) {
+  const int count = used_vertices(surface);
+  const int wanted = options.base_vertices > 0 ? kLevelPerBase * options.base_vertices : count / kAutomaticRatio;
+  const int level = std::max(kSmallestLevel, wanted);
+  return 2 * level > count ? count : level;
 }
 
 std::vector<int> remaining_vertices(const Surface& surface, const RemovalScript& removals) {
@@ -206,7 +262,7 @@ std::vector<int> remaining_vertices(const Surface& surface, const RemovalScript&
 }
 
 Atlas maps_of(const SimplifyResult& simplified) {
-  ShrinkingMap map(simplified.levels.front().surface(), true);
+  ShrinkingMap map((simplified.finer.empty() ? simplified.map->surface() : simplified.finer.front().surface), true);
   Star star;
   Removal removal;
   for (int i = 0; i < simplified.removals.size(); ++i) {

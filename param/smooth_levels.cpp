@@ -3,6 +3,7 @@
 #include "param/best_map.h"
 #include "param/descend_corners.h"
 #include "param/lower_distortion.h"
+#include "param/reinsertion.h"
 #include "param/relax_corners.h"
 #include "param/weights.h"
 
@@ -62,14 +63,14 @@ void smooth_finer(RefinedMap& map, const ParameterizeOptions& options, Progress&
 
 std::optional<SmoothedMap> smooth_levels(SimplifyResult simplified, const ParameterizeOptions& options,
                                          Progress& progress) {
-  std::vector<OverlayMap>& levels = simplified.levels;
-  RefinedMap map = std::move(levels.back()).coarsened();
+  RefinedMap map = std::move(*simplified.map).coarsened();
   map.atlas.reassign_all();
-  const int kept = smooth_coarsest(map, options, levels.size() == 1, progress);
-  for (levels.pop_back(); !levels.empty(); levels.pop_back()) {
-    std::optional<RefinedMap> finer = std::move(levels.back()).followed_by(map);
-    if (!finer) return std::nullopt;
-    map = std::move(*finer);
+  std::vector<Decimation>& finer = simplified.finer;
+  const int kept = smooth_coarsest(map, options, finer.empty(), progress);
+  for (; !finer.empty(); finer.pop_back()) {
+    std::optional<RefinedMap> more = reinsert(finer.back(), map);
+    if (!more) return std::nullopt;
+    map = std::move(*more);
     smooth_finer(map, options, progress);
   }
   return SmoothedMap{std::move(map.atlas), kept};
