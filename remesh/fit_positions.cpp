@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "remesh/chart_samples.h"
+#include "remesh/fold_guard.h"
 
 namespace gsp {
 
@@ -53,12 +54,6 @@ std::array<int, 2> along_side(int steps, int k, int s) {
   if (k == 0) return {s, 0};
   if (k == 1) return {steps - s, s};
   return {0, steps - s};
-}
-
-/// Twice the vector area of the face between three points.
-Vec3 doubled_area(const Triangle& face, const std::vector<Vec3>& positions) {
-  const Vec3& a = positions[face[0]];
-  return (positions[face[1]] - a).cross(positions[face[2]] - a);
 }
 
 /// A sum of squares over elements: gradient zero where, for every vertex, matrix times positions is the moment.
@@ -190,21 +185,6 @@ void PositionFit::add_face(int face, const std::vector<Vec3>& points) {
   }
 }
 
-bool PositionFit::hold_turned(const std::vector<Vec3>& sampled, const std::vector<Vec3>& positions,
-                              std::vector<char>& held) const {
-  bool any = false;
-  for (int f = 0; f < finest_.face_count(); ++f) {
-    const Triangle& face = finest_.faces[f];
-    if (!(doubled_area(face, positions).dot(doubled_areas_[f]) <= 0.0)) continue;
-    if (doubled_area(face, sampled).dot(doubled_areas_[f]) <= 0.0) continue;
-    for (int v : face) {
-      any = any || !held[v];
-      held[v] = 1;
-    }
-  }
-  return any;
-}
-
 std::vector<Vec3> PositionFit::fit(const std::vector<Vec3>& sampled) const {
   std::vector<char> on_boundary(sampled.size(), 0);
   LeastSquares curves(sampled.size()), surface(sampled.size());
@@ -218,6 +198,7 @@ std::vector<Vec3> PositionFit::fit(const std::vector<Vec3>& sampled) const {
 
   std::vector<Vec3> positions = sampled;
   std::vector<char> held(sampled.size(), 0), free(sampled.size());
+  const FoldGuard guard(finest_, doubled_areas_);
   // Each round but the last holds a vertex more, and a face whose corners all are held is that of the samples.
   do {
     for (std::size_t v = 0; v < held.size(); ++v) {
@@ -227,7 +208,7 @@ std::vector<Vec3> PositionFit::fit(const std::vector<Vec3>& sampled) const {
     curves.solve(free, positions);
     for (std::size_t v = 0; v < held.size(); ++v) free[v] = !on_boundary[v] && !held[v];
     surface.solve(free, positions);
-  } while (hold_turned(sampled, positions, held));
+  } while (guard.hold(sampled, positions, held));
   return positions;
 }
 

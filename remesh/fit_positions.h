@@ -16,8 +16,8 @@ namespace gsp {
 /// that over the faces with the boundary held. So boundary curves are those of the boundary alone, and shared by
 /// whatever lies beside them. Integrals are over the domain: each face of the level counts the same.
 ///
-/// Where the surface turns within a face or two the nearest faces may fold. Of a face that would so turn against the
-/// surface over it, and does not with its samples, the corners stay samples, and the others are fitted to that.
+/// Where the surface turns within a face or two the nearest faces may fold. Of faces that so would turn or fold, and do
+/// not with their samples (fold_guard.h), the corners stay samples, and the others are fitted to that.
 class PositionFit {
  public:
   /// `steps` >= 1: points of the quadrature along each side of a face, less one. `finest` is kept by reference.
@@ -31,13 +31,13 @@ class PositionFit {
   /// rounding. Every face must have been added. O(V) for a given precision and each round of turned faces, one thread.
   std::vector<Vec3> fit(const std::vector<Vec3>& sampled) const;
 
- private:
-  /// Marks the corners of faces that turned; false where none is new.
-  bool hold_turned(const std::vector<Vec3>& sampled, const std::vector<Vec3>& positions, std::vector<char>& held) const;
+  /// #F, twice the vector area of the surface over each face.
+  const std::vector<Vec3>& surface_areas() const { return doubled_areas_; }
 
+ private:
   const SubdivisionLevel& finest_;
   int steps_;
-  std::vector<Vec3> doubled_areas_;                ///< #F, twice the vector area of the surface over the face
+  std::vector<Vec3> doubled_areas_;
   std::vector<std::array<Vec3, 3>> face_moments_;  ///< #F, by corner
   std::vector<int> boundary_edges_;
   std::vector<int> place_;                         ///< #E, of an edge among the boundary's, -1 inside

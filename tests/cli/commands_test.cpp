@@ -144,8 +144,9 @@ TEST_CASE("the chain of commands: surface, map, remesh, stream, prefix, distance
     REQUIRE(distance.status == 0);
     return json::parse(distance.out)["rms"].get<double>();
   };
-  const double sampled = remesh_error("sampled"), fitted = remesh_error("fitted");
+  const double sampled = remesh_error("sampled"), closest = remesh_error("closest"), fitted = remesh_error("fitted");
   CHECK(fitted < 0.8 * sampled);
+  CHECK(closest < fitted);
   CHECK(gsp_run({"remesh", map, "-o", remeshed, "--positions", "neither"}).status == 2);
 
   const Ran coded = gsp_run({"encode", remeshed, "-o", stream, "--json"});

@@ -3,24 +3,21 @@
 #include <catch2/catch.hpp>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 
 #include "mesh/parallel.h"
 #include "mesh/random.h"
 #include "mesh/shapes.h"
+#include "remesh/chart_samples.h"
 #include "remesh/remesh.h"
+#include "tests/remesh/bumpy.h"
 #include "tests/remesh/worst.h"
 #include "tests/support/exact_maps.h"
 
 using namespace gsp;
 
 namespace {
-
-SemiregularMesh remeshed(const Parameterization& map, int level, Positions positions) {
-  Progress progress;
-  progress.on_note([](const std::string& note) { FAIL_CHECK(note); });
-  return remesh(map, {level, positions}, progress);
-}
 
 /// The faces between the vertices, as points `halvings` levels finer.
 Mesh refined(const SemiregularMesh& coarse, int halvings) {
@@ -95,12 +92,36 @@ double domain_error(const Parameterization& map, const SemiregularMesh& mesh) {
   return sum;
 }
 
-Parameterization bumpy(const Mesh& base, int level, double height = 0.01) {
-  Parameterization map = exact_maps::quadrisected(base, level);
-  exact_maps::jitter(map, 0.19, level, 5);
-  Random random(3);
-  for (Vec3& p : map.surface.positions) p += height * Vec3(random.uniform(), random.uniform(), random.uniform());
-  return map;
+/// The projection alone, from samples of `map` four steps apart.
+std::vector<Vec3> projected(const Parameterization& map, int level) {
+  constexpr int kSteps = 4;
+  const std::vector<Vec3> surface = remeshed(map, level + 2, Positions::Sampled).positions;
+  const std::vector<SubdivisionLevel> levels = subdivision_levels(map.base.vertex_count(), map.base.faces, level + 2);
+  // Lattice corners of the faces that quadrisecting one twice makes.
+  using Corners = std::array<std::array<int, 2>, 3>;
+  std::vector<Corners> pieces = {{{{0, 0}, {kSteps, 0}, {0, kSteps}}}};
+  for (int halving = 0; halving < 2; ++halving) {
+    std::vector<Corners> finer;
+    for (const Corners& c : pieces) {
+      const auto middle = [&](int a, int b) {
+        return std::array<int, 2>{(c[a][0] + c[b][0]) / 2, (c[a][1] + c[b][1]) / 2};
+      };
+      const auto ab = middle(0, 1), bc = middle(1, 2), ca = middle(2, 0);
+      for (const Corners& child : {Corners{c[0], ab, ca}, {ab, c[1], bc}, {ca, bc, c[2]}, {ab, bc, ca}})
+        finer.push_back(child);
+    }
+    pieces = finer;
+  }
+  PositionFit fit(levels[level], kSteps);
+  for (int f = 0; f < levels[level].face_count(); ++f) {
+    std::vector<Vec3> points((kSteps + 1) * (kSteps + 2) / 2);
+    for (std::size_t p = 0; p < pieces.size(); ++p)
+      for (int k = 0; k < 3; ++k)
+        points[lattice_index(kSteps, pieces[p][k][0], pieces[p][k][1])] =
+            surface[levels.back().faces[pieces.size() * f + p][k]];
+    fit.add_face(f, points);
+  }
+  return fit.fit({surface.begin(), surface.begin() + levels[level].vertex_count});
 }
 
 }  // namespace
@@ -108,15 +129,17 @@ Parameterization bumpy(const Mesh& base, int level, double height = 0.01) {
 TEST_CASE("a linear map is fitted exactly: the plane, its boundary and its corners") {
   const auto slope = [](double x, double y) { return 3.0 + 0.25 * x - 0.5 * y; };
   const Parameterization map = lifted_hexagon(4, slope);
-  for (int level = 0; level <= 5; ++level)
-    CHECK(worst(remeshed(map, level, Positions::Fitted).positions, remeshed(map, level, Positions::Sampled).positions) <
-          1e-14);
+  for (Positions positions : {Positions::Fitted, Positions::Closest})
+    for (int level = 0; level <= 5; ++level)
+      CHECK(worst(remeshed(map, level, positions).positions, remeshed(map, level, Positions::Sampled).positions) <
+            1e-14);
 }
 
 TEST_CASE("a flat surface stays flat whatever the map does") {
   Parameterization map = lifted_hexagon(4, [](double, double) { return 2.0; });
   exact_maps::jitter(map, 0.19, 4, 3);
-  for (const Vec3& p : remeshed(map, 3, Positions::Fitted).positions) CHECK(p.z() == Approx(2.0).epsilon(1e-14));
+  for (Positions positions : {Positions::Fitted, Positions::Closest})
+    for (const Vec3& p : remeshed(map, 3, positions).positions) CHECK(p.z() == Approx(2.0).epsilon(1e-14));
 }
 
 // On a lattice of equilateral triangles with circumradius R the interpolation error of |x|²/2 is (R² - |x-c|²)/2, whose
@@ -140,7 +163,7 @@ TEST_CASE("what lies inside has no part in the boundary's fit") {
   const Parameterization map = lifted_hexagon(5, paraboloid);
   Parameterization other = map;
   for (Vec3& p : other.surface.positions) p.z() += std::pow(std::max(0.0, 0.8 - p.head<2>().norm()), 2);
-  const SemiregularMesh a = remeshed(map, 3, Positions::Fitted), b = remeshed(other, 3, Positions::Fitted);
+  const SemiregularMesh a = remeshed(map, 3, Positions::Fitted), b = remeshed(other, 3, Positions::Closest);
   const std::vector<VertexFan> fans = vertex_fans(subdivision_levels(a.base_vertices, a.base_faces, 3).back());
   int on_boundary = 0;
   for (std::size_t v = 0; v < fans.size(); ++v) {
@@ -156,7 +179,8 @@ TEST_CASE("the fit is the least of its sum of squares at every level, whichever 
     for (int level = 1; level <= 3; ++level) {
       // As fine as the remesh, so that four steps suffice.
       Parameterization map = bumpy(base, level);
-      const SemiregularMesh fitted = remeshed(map, level, Positions::Fitted);
+      SemiregularMesh fitted = remeshed(map, level, Positions::Sampled);
+      fitted.positions = projected(map, level);
       const double least = domain_error(map, fitted);
       CHECK(least <= domain_error(map, remeshed(map, level, Positions::Sampled)));
       Random random(level);
@@ -167,14 +191,14 @@ TEST_CASE("the fit is the least of its sum of squares at every level, whichever 
         CHECK(domain_error(map, moved) > least);
       }
       exact_maps::rechart(map, 9);
-      CHECK(worst(fitted.positions, remeshed(map, level, Positions::Fitted).positions) < 1e-12);
+      CHECK(worst(fitted.positions, projected(map, level)) < 1e-12);
     }
 }
 
 TEST_CASE("no face turns against the surface over it but those whose samples do") {
   for (const Mesh& base : {shapes::icosahedron(), shapes::lattice_torus(4, 5), shapes::grid(2, 3)}) {
     const Parameterization map = bumpy(base, 3, 0.3);
-    const SemiregularMesh fitted = remeshed(map, 3, Positions::Fitted);
+    const SemiregularMesh fitted = remeshed(map, 3, GENERATE(Positions::Fitted, Positions::Closest));
     const Mesh sampled = remeshed(map, 3, Positions::Sampled).mesh(),
                finer = remeshed(map, 5, Positions::Sampled).mesh();
     const auto area = [](const std::vector<Vec3>& p, const Triangle& t) -> Vec3 {
@@ -208,25 +232,37 @@ TEST_CASE("a sphere: the fit is nearer by what its curvature, alike in all direc
   CHECK(ratio < 4.0);
 }
 
-TEST_CASE("a rigid motion of the surface moves the fit") {
+TEST_CASE("a rigid motion or mirror of the surface moves the fit") {
+  const Positions positions = GENERATE(Positions::Fitted, Positions::Closest);
+  const double sign = GENERATE(1.0, -1.0);
   for (const Mesh& base : {shapes::icosahedron(), shapes::grid(2, 3)}) {
     Parameterization map = bumpy(base, 3);
-    std::vector<Vec3> expected = remeshed(map, 2, Positions::Fitted).positions;
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vec3(1.0, 2.0, -2.0).normalized()).toRotationMatrix();
+    std::vector<Vec3> expected = remeshed(map, 2, positions).positions;
+    const Eigen::Matrix3d turn = sign * Eigen::AngleAxisd(1.1, Vec3(1.0, 2.0, -2.0).normalized()).toRotationMatrix();
     const Vec3 shift(3.0, -5.0, 2.0);
     for (Vec3& p : map.surface.positions) p = turn * p + shift;
     for (Vec3& p : expected) p = turn * p + shift;
-    CHECK(worst(remeshed(map, 2, Positions::Fitted).positions, expected) < 1e-12);
+    CHECK(worst(remeshed(map, 2, positions).positions, expected) < 1e-11);
   }
 }
 
+TEST_CASE("a scaling of the surface scales the fit, by a power of two to the last bit") {
+  const Positions positions = GENERATE(Positions::Fitted, Positions::Closest);
+  Parameterization map = bumpy(shapes::icosahedron(), 3);
+  std::vector<Vec3> expected = remeshed(map, 2, positions).positions;
+  for (Vec3& p : map.surface.positions) p *= 0x1p-20;
+  for (Vec3& p : expected) p *= 0x1p-20;
+  CHECK(remeshed(map, 2, positions).positions == expected);
+}
+
 TEST_CASE("folds, and coordinates of any finite size, leave the fit finite") {
+  const Positions positions = GENERATE(Positions::Fitted, Positions::Closest);
   for (double size : {1e-150, 1.0, 1e150}) {
     Parameterization map = exact_maps::quadrisected(shapes::icosahedron(), 3);
     exact_maps::jitter(map, 1.2, 3, 3);
     for (Vec3& p : map.surface.positions) p *= size;
     Progress silent;
-    for (const Vec3& p : remesh(map, {4, Positions::Fitted}, silent).positions) {
+    for (const Vec3& p : remesh(map, {4, positions}, silent).positions) {
       CHECK(p.allFinite());
       CHECK(p.norm() < 2.0 * size);
     }
@@ -234,11 +270,12 @@ TEST_CASE("folds, and coordinates of any finite size, leave the fit finite") {
 }
 
 TEST_CASE("one and two threads fit the same bits") {
+  const Positions positions = GENERATE(Positions::Fitted, Positions::Closest);
   const Parameterization map = bumpy(shapes::grid(2, 3), 4);
   set_thread_count(1);
-  const SemiregularMesh one = remeshed(map, 5, Positions::Fitted);
+  const SemiregularMesh one = remeshed(map, 5, positions);
   set_thread_count(2);
-  const SemiregularMesh two = remeshed(map, 5, Positions::Fitted);
+  const SemiregularMesh two = remeshed(map, 5, positions);
   set_thread_count(0);
   CHECK(one.positions == two.positions);
 }

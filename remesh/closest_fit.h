@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "remesh/fold_guard.h"
+#include "remesh/nearest_place.h"
+#include "remesh/semiregular.h"
+
+namespace gsp {
+
+/// A point of the surface that stands for `weight` of a face of the remesh, and its place on that by the map.
+struct SurfaceSample {
+  Vec3 point;
+  double weight = 0.0;
+  LevelPlace place;
+};
+
+/// Moves a remesh's vertices down the sum of the squared distances of `samples` to the nearest places of its surface,
+/// wherever the map has them: along the surface as much as across it, so that edges turn into creases and vertices to
+/// where the surface bends. What that moves is held together by springs of `stiffness` > 0 along the edges, between the
+/// moves from `start`, #V, of their ends: moves that are alike cost nothing, each on its own costs bytes in a code.
+///
+/// Rounds of Gauss-Newton steps (iterated closest points, each to the plane of its nearest face), each taken only where
+/// it lowers the whole energy, so the distance never ends above that of `start`. Vertices on the boundary stay, and
+/// what `guard` holds. A rigid motion or scaling of all moves the result, up to rounding. The same bits on any number
+/// of threads, which share the search for nearest places. O(V + samples).
+std::vector<Vec3> fit_closest(const SubdivisionLevel& finest, const FoldGuard& guard,
+                              std::vector<SurfaceSample> samples, double stiffness, const std::vector<Vec3>& start);
+
+}  // namespace gsp
