@@ -31,18 +31,26 @@ class StarCut {
   std::map<int, int> on_edge_;  ///< added vertices on the star's edges, and the edges' ends; -1 for those on the border
 };
 
-/// Puts the centre onto the boundary between the ends of its ring, but for two patch corners, whose chart it would not
-/// know.
+/// Puts the centre onto the boundary between the ends of its ring.
 bool StarCut::seat_on_side() {
-  const int first = hole_.star.ring.front(), last = hole_.star.ring.back();
-  if (map_.loose.corner[first] >= 0 && map_.loose.corner[last] >= 0) return false;
+  const int first = hole_.star.ring.front(), last = hole_.star.ring.back(), center = hole_.star.center;
   int side = -1;
   map_.links.for_each_outgoing(last, true, [&](int h) {
     if (map_.links.to(h) == first && map_.links.twin[h] < 0) side = h;
   });
   if (side < 0) return false;
-  plane_[hole_.star.center] = 0.0;
-  return map_.split(side, hole_.share_of_boundary(), hole_.star.center);
+  plane_[center] = 0.0;
+  if (!map_.split(side, hole_.share_of_boundary(), center)) return false;
+  if (map_.loose.corner[first] < 0 || map_.loose.corner[last] < 0) return true;
+  Complex at_first = 0.0, at_last = 0.0;
+  map_.links.for_each_outgoing(center, true, [&](int h) {
+    const auto [next, before] = map_.loose.link(map_.links, h);
+    if (map_.links.to(h) == first) at_first = next;
+    if (map_.links.from(Halfedges::prev(h)) == last) at_last = before;
+  });
+  const auto seat = map_.boundary_seat(last, first, at_last, at_first);
+  if (seat) map_.change_chart(center, *seat);
+  return seat.has_value();
 }
 
 /// Puts the centre into the piece that holds 0, or onto an edge that is near.

@@ -104,6 +104,26 @@ std::optional<Atlas::FaceFrame> GrowingMap::frame_across(int h, const Atlas::Fac
   return to;
 }
 
+std::optional<Arrival> GrowingMap::boundary_seat(int from, int to, Complex at_from, Complex at_to) const {
+  for (const BaseFan::Sector& s : fans[loose.corner[from]].sectors) {
+    const int next = (s.corner + 1) % 3;
+    if (base.twins[3 * s.face + s.corner] >= 0 || base.faces[s.face][next] != loose.corner[to]) continue;
+    const auto change = lattice_motion(at_from, at_to, kChartCorners[s.corner].value(), kChartCorners[next].value());
+    if (change) return Arrival{s.face, *change};
+  }
+  return std::nullopt;
+}
+
+void GrowingMap::change_chart(int vertex, const Arrival& arrival) {
+  loose.patch[vertex] = arrival.chart;
+  loose.position[vertex] = arrival.change.apply(loose.position[vertex]);
+  const Transition back = arrival.change.inverse();
+  links.for_each_outgoing(vertex, boundary(vertex), [&](int h) {
+    loose.transition[h] = arrival.change * loose.transition[h];
+    loose.transition[Halfedges::prev(h)] = loose.transition[Halfedges::prev(h)] * back;
+  });
+}
+
 int GrowingMap::add_vertex() {
   added.emplace_back();
   links.outgoing.push_back(-1);

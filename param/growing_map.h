@@ -42,6 +42,11 @@ struct GrowingMap {
   /// The frame of the face behind h as it continues that of the face before it, `from`. Nothing where they do not fit.
   std::optional<Atlas::FaceFrame> frame_across(int h, const Atlas::FaceFrame& from) const;
 
+  /// The base face at the boundary edge between two patch corners, which lie at the given places in some chart, and the change
+  /// from that chart. Nothing where there is no such edge.
+  std::optional<Arrival> boundary_seat(int from, int to, Complex at_from, Complex at_to) const;
+  void change_chart(int vertex, const Arrival& arrival);
+
   /// A further added vertex, whose support is not set.
   int add_vertex();
   /// Puts a vertex on the edge of h at a share of the way from its start, or into a face with the weights of its

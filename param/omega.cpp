@@ -168,12 +168,16 @@ bool Pricer::triangulate(Candidate& candidate) {
   return true;
 }
 
+bool Pricer::leaves_surface(const Star& star) const {
+  const int n = star.size();
+  if (n < 3 || n > kLargestRing) return false;
+  return star.boundary ? complex_.loop_vertices(star.center) > 3 : complex_.component_vertices(star.center) > 4;
+}
+
 void Pricer::price(int vertex, Candidate& candidate) {
   candidate.feasible = false;
   complex_.gather(vertex, star_);
-  const int n = star_.size();
-  if (n < 3 || n > kLargestRing) return;
-  if (star_.boundary ? complex_.loop_vertices(vertex) <= 3 : complex_.component_vertices(vertex) <= 4) return;
+  if (!leaves_surface(star_)) return;
   flatten_star(surface_.mesh.positions, star_, ring_);
   const auto& positions = surface_.mesh.positions;
   outer_area_.assign(star_.triangles.size(), -1.0);

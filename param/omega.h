@@ -33,8 +33,8 @@ class Pricer {
   /// `candidate`: with parts and triangles where it is feasible.
   void price(int vertex, Candidate& candidate);
 
-  /// Star of the vertex priced last.
-  const Star& star() const { return star_; }
+  /// Whether its boundary and its component have a vertex to spare, and its ring is not too large.
+  bool leaves_surface(const Star& star) const;
 
  private:
   struct Sample {

@@ -8,7 +8,6 @@
 #include "param/distortion_energy.h"
 #include "param/flatten.h"
 #include "param/kernel.h"
-#include "param/lattice_motion.h"
 #include "param/newton_descent.h"
 
 namespace gsp {
@@ -107,21 +106,14 @@ void Reinsertion::lay_border() {
 
 /// A boundary star between two patch corners: the hole goes to the chart of the base edge between them.
 bool Reinsertion::seat_on_boundary() {
-  const int first = map_.loose.corner[hole_.border.front().vertex],
-            last = map_.loose.corner[hole_.border.back().vertex];
-  if (first < 0 || last < 0) return true;
-  for (const BaseFan::Sector& s : map_.fans[last].sectors) {
-    const int next = (s.corner + 1) % 3;
-    if (map_.base.twins[3 * s.face + s.corner] >= 0 || map_.base.faces[s.face][next] != first) continue;
-    const auto change =
-        lattice_motion(polygon_.back(), polygon_.front(), kChartCorners[s.corner].value(), kChartCorners[next].value());
-    if (!change) return false;
-    chart_ = s.face;
-    for (Transition& t : into_) t = *change * t;
-    lay_border();
-    return true;
-  }
-  return false;
+  const int first = hole_.border.front().vertex, last = hole_.border.back().vertex;
+  if (map_.loose.corner[first] < 0 || map_.loose.corner[last] < 0) return true;
+  const auto seat = map_.boundary_seat(last, first, polygon_.back(), polygon_.front());
+  if (!seat) return false;
+  chart_ = seat->chart;
+  for (Transition& t : into_) t = seat->change * t;
+  lay_border();
+  return true;
 }
 
 /// Where the filling has the middle of the star's plane.

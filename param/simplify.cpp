@@ -58,9 +58,10 @@ class Simplifier {
 
   void price_all();
   void remove_down_to(int target);
-  bool remove(int vertex);
+  bool remove(const Star& star, const Candidate& candidate);
+  bool has_taken_edge(const Star& star, const Candidate& candidate) const;
   Star of_level(const Star& star) const;
-  bool remove_from_overlay(const Star& star);
+  bool remove_from_overlay(const Star& star, const std::vector<RingTriangle>& triangles);
   void end_level();
 
   std::shared_ptr<const Surface> surface_;
@@ -76,9 +77,10 @@ class Simplifier {
   Level level_;
   Decimation decimation_;  ///< of the present level, but for the last one
 
-  Candidate candidate_;
+  std::vector<Candidate> candidates_;  ///< per vertex, as it was last priced
   std::vector<int> stamp_;
-  std::vector<char> stale_;  ///< its star changed since it was priced
+  std::vector<char> stale_;   ///< its star changed since it was priced
+  std::vector<char> beside_;  ///< a triangle behind its star has changed since
   std::vector<char> queued_;
   std::priority_queue<Entry> queue_;
   std::vector<Triangle> filling_;
@@ -86,50 +88,62 @@ class Simplifier {
 
 void Simplifier::price_all() {
   const int count = surface_->mesh.vertex_count();
-  std::vector<double> cost(count, -1.0);
+  candidates_.resize(count);
   parallel_for(count, 2048, [&](std::size_t begin, std::size_t end) {
     Pricer pricer = pricer_;
-    Candidate candidate;
-    for (std::size_t v = begin; v < end; ++v) {
-      if (surface_->halfedges.outgoing[v] < 0) continue;
-      pricer.price(static_cast<int>(v), candidate);
-      if (candidate.feasible) cost[v] = candidate.parts.omega();
-    }
+    for (std::size_t v = begin; v < end; ++v)
+      if (surface_->halfedges.outgoing[v] >= 0) pricer.price(static_cast<int>(v), candidates_[v]);
   });
   stamp_.assign(count, 0);
   stale_.assign(count, 0);
+  beside_.assign(count, 0);
   queued_.assign(count, 0);
   for (int v = 0; v < count; ++v) {
-    if (surface_->halfedges.outgoing[v] < 0) continue;
-    if (cost[v] < 0.0) continue;
-    queue_.push({cost[v], v, 0});
+    if (!candidates_[v].feasible) continue;
+    queue_.push({candidates_[v].parts.omega(), v, 0});
     queued_[v] = 1;
   }
 }
 
+/// Whether an edge of the filling has come to join two vertices of the ring elsewhere since it was chosen.
+bool Simplifier::has_taken_edge(const Star& star, const Candidate& candidate) const {
+  return std::any_of(candidate.triangles.begin(), candidate.triangles.end(), [&](const RingTriangle& t) {
+    const bool closing =
+        t[0] == 0 && t[2] == star.size() - 1;  // an edge of the ring but where the star is on a boundary
+    return (!closing || star.boundary) && map_.complex().edge_exists(star.ring[t[0]], star.ring[t[2]]);
+  });
+}
+
 void Simplifier::remove_down_to(int target) {
   std::vector<OmegaRecord>& record = result_.omega;
+  Star star;
   while (!ended_ && remaining_ > target && !queue_.empty()) {
     const Entry top = queue_.top();
     queue_.pop();
     if (top.stamp != stamp_[top.vertex]) continue;
     queued_[top.vertex] = 0;  // if it cannot be removed now it waits until its star changes
-    pricer_.price(top.vertex, candidate_);
-    if (!candidate_.feasible) continue;
-    if (stale_[top.vertex]) {
-      stale_[top.vertex] = 0;
+    Candidate& candidate = candidates_[top.vertex];
+    map_.complex().gather(top.vertex, star);
+    const bool stale = stale_[top.vertex];
+    if (stale || beside_[top.vertex] || has_taken_edge(star, candidate)) {
+      stale_[top.vertex] = beside_[top.vertex] = 0;
+      pricer_.price(top.vertex, candidate);
+    }
+    if (!candidate.feasible || !pricer_.leaves_surface(star)) continue;
+    if (stale) {
       queued_[top.vertex] = 1;
-      queue_.push({candidate_.parts.omega(), top.vertex, ++stamp_[top.vertex]});
+      queue_.push({candidate.parts.omega(), top.vertex, ++stamp_[top.vertex]});
       continue;
     }
-    candidate_.parts.remaining_vertices = remaining_ - 1;
-    if (options_.base_vertices == 0 && stop_.reached(candidate_.parts)) {
-      record.push_back(candidate_.parts);
+    candidate.parts.remaining_vertices = remaining_ - 1;
+    if (options_.base_vertices == 0 && stop_.reached(candidate.parts)) {
+      record.push_back(candidate.parts);
       ended_ = true;
       return;
     }
-    if (!remove(top.vertex)) continue;
-    record.push_back(candidate_.parts);
+    if (!remove(star, candidate)) continue;
+    record.push_back(candidate.parts);
+    candidate = {};
     if (record.size() % 4096 == 0)
       progress_.report("simplify", double(record.size()) / (start_ - options_.base_vertices));
   }
@@ -145,10 +159,10 @@ Star Simplifier::of_level(const Star& star) const {
 }
 
 /// The same removal by the overlay's complex, which may start its ring elsewhere.
-bool Simplifier::remove_from_overlay(const Star& star) {
+bool Simplifier::remove_from_overlay(const Star& star, const std::vector<RingTriangle>& triangles) {
   Star there;
   result_.map->complex().gather(level_.vertex[star.center], there);
-  Removal removal{there.center, candidate_.triangles};
+  Removal removal{there.center, triangles};
   for (RingTriangle& t : removal.triangles) {
     for (int& k : t)
       k = static_cast<int>(std::find(there.ring.begin(), there.ring.end(), level_.vertex[star.ring[k]]) -
@@ -158,17 +172,22 @@ bool Simplifier::remove_from_overlay(const Star& star) {
   return result_.map->remove(removal);
 }
 
-bool Simplifier::remove(int vertex) {
-  const Star& star = pricer_.star();
+bool Simplifier::remove(const Star& star, const Candidate& candidate) {
   if (!result_.map)
-    decimation_.add(of_level(star), candidate_.triangles);
-  else if (!remove_from_overlay(star))
+    decimation_.add(of_level(star), candidate.triangles);
+  else if (!remove_from_overlay(star, candidate.triangles))
     return false;
-  map_.remove({vertex, candidate_.triangles});
+  const TriangleComplex& complex = map_.complex();
+  for (int t : star.triangles) {
+    const int other = complex.neighbour(t, (complex.corner_index(t, star.center) + 1) % 3);
+    if (other < 0) continue;
+    for (int v : complex.corners(other)) beside_[v] = 1;
+  }
+  map_.remove({star.center, candidate.triangles});
   filling_.clear();
-  for (const RingTriangle& t : candidate_.triangles)
+  for (const RingTriangle& t : candidate.triangles)
     filling_.push_back({star.ring[t[0]], star.ring[t[1]], star.ring[t[2]]});
-  result_.removals.add(vertex, filling_);
+  result_.removals.add(star.center, filling_);
   --remaining_;
   for (int neighbour : star.ring) {
     stale_[neighbour] = 1;
