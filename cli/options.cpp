@@ -260,8 +260,9 @@ void Command::remesh_options(RemeshOptions& options) {
 
 void Command::encode_options(std::string& wavelet, EncodeOptions& options) {
   choice("--wavelet", wavelet, axis("wavelet").words, "wavelet transform");
-  axis_integer("precision_bits", options.precision_bits,
-               "bits of the finest step relative to the bounding box: where the whole stream ends");
+  axis_integer_or_auto("precision_bits", options.precision_bits, EncodeOptions::kAutoPrecision,
+                       "bits of the finest step relative to the bounding box, where the whole stream ends; auto is as "
+                       "many as the remesh is worth");
   const std::vector<std::string> ratios = axis("tangential_ratio").words;
   app_->add_option("--tangential-ratio", options.tangential_ratio,
                    fmt::format("step of tangential over normal components [{}; {}]", options.tangential_ratio,

@@ -13,6 +13,7 @@
 #include "coder/header.h"
 #include "coder/importance.h"
 #include "coder/local_frames.h"
+#include "coder/precision.h"
 #include "coder/quantizer.h"
 #include "coder/rate_distortion.h"
 #include "coder/wavelet_transform.h"
@@ -22,7 +23,8 @@ namespace gsp {
 namespace {
 
 void check(const SemiregularMesh& mesh, const EncodeOptions& options) {
-  if (options.precision_bits < 8 || options.precision_bits > 24)
+  const bool automatic = options.precision_bits == EncodeOptions::kAutoPrecision;
+  if (!automatic && (options.precision_bits < 8 || options.precision_bits > 24))
     throw Error(Cause::BadOption, "precision_bits " + std::to_string(options.precision_bits) + " is not in 8..24");
   if (options.tangential_ratio < 1 || options.tangential_ratio > 8 ||
       !std::has_single_bit(static_cast<unsigned>(options.tangential_ratio)))
@@ -142,6 +144,9 @@ struct Source {
         details(mesh.level) {
     progress.report("wavelet analysis", 0.1);
     positions[mesh.level] = in_coded_order(mesh, header.base).positions;
+    if (precision_bits == EncodeOptions::kAutoPrecision)
+      precision_bits =
+          mesh.level == 0 ? 16 : sufficient_precision(structure.levels.back(), positions[mesh.level], diagonal);
     for (int l = mesh.level - 1; l >= 0; --l) {
       WaveletTransform::Split split = structure.transform.analysis(l, positions[l + 1]);
       positions[l] = std::move(split.coarse);

@@ -22,10 +22,12 @@ Wavelet wavelet_of(const std::string& name);
 struct EncodeOptions {
   /// Loop is the transform with which the paper compares maps. `gsp encode` takes lifted Butterfly, which codes better.
   Wavelet wavelet = Wavelet::Loop;
-  /// Bits per coordinate of the finest quantization of normal components relative to the bounding box, 8..24.
-  /// It sets where the stream ends: the whole stream codes every coefficient to about this step, times the inverse
-  /// square root of the local over the mean triangle area. At most 25 less the number of levels is used.
-  int precision_bits = 16;
+  /// Bits per coordinate of the finest quantization of normal components relative to the bounding box, 8..24, or as many
+  /// as the remesh is worth (coder/precision.h; 16 where it has no levels). It sets where the stream ends: the whole
+  /// stream codes every coefficient to about this step, times the inverse square root of the local over the mean
+  /// triangle area. At most 25 less the number of levels is used.
+  static constexpr int kAutoPrecision = 0;
+  int precision_bits = kAutoPrecision;
   /// Largest step of tangential components over that of normal ones, a power of two: 1, 2, 4, 8. It is reached where
   /// the surface is flat and smooth (coder/importance.h); where normals vary, steps are closer to equal.
   int tangential_ratio = 8;

@@ -53,7 +53,9 @@ std::vector<std::array<std::uint32_t, 3>> quantize_base(const std::vector<Vec3>&
     high = high.cwiseMax(p);
   }
   const double step = base_step(header);
-  for (header.base_planes = 1; header.base_planes < 31; ++header.base_planes) {
+  // Even a point far from the coordinates' origin has so many planes that its own origin is a number headers can hold.
+  constexpr int kLeastPlanes = 6;
+  for (header.base_planes = kLeastPlanes; header.base_planes < 31; ++header.base_planes) {
     const double unit = origin_unit(header);
     bool fits = true;
     for (int k = 0; k < 3; ++k) {

@@ -121,9 +121,11 @@ std::vector<Axis> code_axes() {
        Kind::Integer,
        8,
        24,
-       {},
-       [](const Options& o) { return Value(std::int64_t{o.encode.precision_bits}); },
-       [](Options& o, const Value& v) { o.encode.precision_bits = static_cast<int>(integer(v)); }},
+       {kAuto},
+       [](const Options& o) { return integer_or_auto(o.encode.precision_bits, EncodeOptions::kAutoPrecision); },
+       [](Options& o, const Value& v) {
+         o.encode.precision_bits = integer_or_auto(v, EncodeOptions::kAutoPrecision);
+       }},
       {"tangential_ratio",
        StageKind::Encode,
        Kind::Integer,
