@@ -72,6 +72,8 @@ bool closed(const CornerDisc& disc, const CornerMove& move) {
     const Transition t = at == changed.end() ? atlas.transition[edge] : at->second;
     return surface.edge_halfedge[edge] == h ? t : t.inverse();
   };
+  // A corner on a boundary stays where it is; where the region goes round a small hole the way there may not be the same.
+  const auto stays = [&](int v) { return v != move.new_corner || disc.fan().boundary; };
   const auto is_corner = [&](int v) { return v == move.new_corner || (v != disc.corner() && atlas.corner[v] >= 0); };
   for (const CornerDisc::Vertex& v : disc.vertices()) {
     if (!v.inside) continue;
@@ -85,10 +87,10 @@ bool closed(const CornerDisc& disc, const CornerMove& move) {
         const Transition round = forth * beside;
         const Transition direct = back.inverse();
         if (!is_corner(a) && !is_corner(b) && !(round == direct)) return false;
-        if (!is_corner(a) && is_corner(b) && b != move.new_corner &&
+        if (!is_corner(a) && is_corner(b) && stays(b) &&
             std::abs(round.apply(atlas.position[b]) - direct.apply(atlas.position[b])) > 1e-6)
           return false;
-        if (is_corner(a) && !is_corner(b) && a != move.new_corner &&
+        if (is_corner(a) && !is_corner(b) && stays(a) &&
             std::abs((direct * beside.inverse()).apply(atlas.position[a]) - forth.apply(atlas.position[a])) > 1e-6)
           return false;
       }

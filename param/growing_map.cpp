@@ -6,6 +6,10 @@
 
 namespace gsp {
 
+namespace {
+constexpr double kBaseEdge = 1e-9;  // from 1, within which a length is that of a base edge
+}
+
 double GrowingMap::Support::weight_of(int corner) const {
   for (int k = 0; k < 3; ++k)
     if (corners[k] == corner) return weights[k];
@@ -65,7 +69,48 @@ Vec3 GrowingMap::on_surface(int v) const {
          at.weights[2] * positions[at.corners[2]];
 }
 
+/// Whether a face's own frame has the right chart, not just the right shape: positions do not show the way about patch
+/// corners.
+bool GrowingMap::knows_chart(int face) const {
+  const Triangle& t = links.faces[face];
+  std::array<int, 3> c;
+  for (int k = 0; k < 3; ++k) c[k] = loose.corner[t[k]];
+  if (c[0] < 0 || c[1] < 0 || c[2] < 0) return true;
+  for (int k = 0; k < 3; ++k) {
+    const Complex there = loose.transition[3 * face + k].apply(loose.position[t[(k + 1) % 3]]);
+    if (std::abs(std::abs(there - loose.position[t[k]]) - 1.0) > kBaseEdge) return false;
+  }
+  return std::any_of(fans[c[0]].sectors.begin(), fans[c[0]].sectors.end(), [&](const BaseFan::Sector& s) {
+    return base.faces[s.face][(s.corner + 1) % 3] == c[1] && base.faces[s.face][(s.corner + 2) % 3] == c[2];
+  });
+}
+
 Atlas::FaceFrame GrowingMap::frame(int face) const {
+  if (knows_chart(face)) return own_frame(face);
+  // From the face outward, by the half-edges that lead back.
+  std::vector<std::pair<int, int>> reached{{face, -1}};
+  std::vector<int> seen{face};
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    for (int h = 3 * reached[i].first; h < 3 * reached[i].first + 3; ++h) {
+      const int twin = links.twin[h];
+      if (twin < 0 || std::count(seen.begin(), seen.end(), twin / 3) > 0) continue;
+      seen.push_back(twin / 3);
+      reached.emplace_back(twin / 3, twin);
+      if (!knows_chart(twin / 3)) continue;
+      Atlas::FaceFrame at = own_frame(twin / 3);
+      for (int back = twin; back >= 0;) {
+        const auto next = frame_across(back, at);
+        if (!next) return own_frame(face);
+        at = *next;
+        const int there = links.twin[back] / 3;
+        back = std::find_if(reached.begin(), reached.end(), [&](const auto& r) { return r.first == there; })->second;
+      }
+      return at;
+    }
+  return own_frame(face);
+}
+
+Atlas::FaceFrame GrowingMap::own_frame(int face) const {
   const Triangle& t = links.faces[face];
   const Transition* along = &loose.transition[3 * face];
   int reference = -1;
@@ -88,7 +133,7 @@ Atlas::FaceFrame GrowingMap::frame(int face) const {
 
 std::optional<Atlas::FaceFrame> GrowingMap::frame_across(int h, const Atlas::FaceFrame& from) const {
   const int twin = links.twin[h];
-  Atlas::FaceFrame to = frame(twin / 3);
+  Atlas::FaceFrame to = own_frame(twin / 3);
   const int here[2] = {h % 3, Halfedges::next(h) % 3}, there[2] = {Halfedges::next(twin) % 3, twin % 3};
   const int end[2] = {links.from(h), links.to(h)};
   std::optional<Transition> change;

@@ -42,8 +42,8 @@ struct GrowingMap {
   /// The frame of the face behind h as it continues that of the face before it, `from`. Nothing where they do not fit.
   std::optional<Atlas::FaceFrame> frame_across(int h, const Atlas::FaceFrame& from) const;
 
-  /// The base face at the boundary edge between two patch corners, which lie at the given places in some chart, and the change
-  /// from that chart. Nothing where there is no such edge.
+  /// The base face at the boundary edge between two patch corners, which lie at the given places in some chart, and the
+  /// change from that chart. Nothing where there is no such edge.
   std::optional<Arrival> boundary_seat(int from, int to, Complex at_from, Complex at_to) const;
   void change_chart(int vertex, const Arrival& arrival);
 
@@ -61,6 +61,8 @@ struct GrowingMap {
   RefinedMap finish() &&;
 
  private:
+  Atlas::FaceFrame own_frame(int face) const;
+  bool knows_chart(int face) const;
   void connect(int face, const std::array<Transition, 3>& into, int middle);
 };
 

@@ -23,6 +23,7 @@ namespace {
 
 constexpr int kAutomaticShare = 64;         // vertices per base vertex, of which the automatic stop falls short or not
 constexpr int kPairPasses = 3;              // of the hybrid baseline; more bring it nearer to the global solution
+constexpr int kLargerLevel = 4;             // than the last level that could not be joined
 constexpr double kLongestEdge = 0.25;       // of the edge of an equilateral patch of mean area
 
 void check_options(const ParameterizeOptions& options) {
@@ -84,27 +85,35 @@ Mesh refined(Mesh mesh, const ParameterizeOptions& options, Progress& progress) 
   return mesh;
 }
 
-/// Simplifies the surface, and makes what the methods start from.
+/// Simplifies the surface and, where it is wanted, smooths the map without folds. Where the levels cannot be joined the last of
+/// them is made larger, at the end as large as the surface.
 Start make_start(const Mesh& mesh, const std::vector<Method>& methods, const ParameterizeOptions& options,
                  Progress& progress) {
   const auto surface = std::make_shared<const Surface>(refined(mesh, options, progress));
-  const int whole = surface->mesh.vertex_count();  // as the coarsest level: the only one
   const auto injective = std::count(methods.begin(), methods.end(), Method::Gsp);
-  SimplifyResult simplified = simplify(surface, options, injective > 0 ? coarsest_level(*surface, options) : whole, progress);
+  const int whole = surface->mesh.vertex_count();
+  ParameterizeOptions smoothing = options;
+  if (options.objective == Objective::Linear) smoothing.relaxations = 0;  // it relaxes the corners of its own solution
   Start start;
-  start.omega = std::move(simplified.omega);
-  start.base_vertices = remaining_vertices(*surface, simplified.removals);
-  if (injective < static_cast<int>(methods.size())) start.maps = maps_of(simplified);
-  if (injective > 0) {
-    ParameterizeOptions smoothing = options;
-    if (options.objective == Objective::Linear) smoothing.relaxations = 0;  // it relaxes the corners of its own solution
+  for (int coarsest = injective > 0 ? coarsest_level(*surface, options) : whole;;) {
+    SimplifyResult simplified = simplify(surface, options, coarsest, progress);
+    start.omega = std::move(simplified.omega);
+    start.base_vertices = remaining_vertices(*surface, simplified.removals);
+    start.maps.reset();
+    if (injective < static_cast<int>(methods.size())) start.maps = maps_of(simplified);
+    if (injective == 0) break;
     std::optional<SmoothedMap> smoothed = smooth_levels(std::move(simplified), smoothing, progress);
-    if (!smoothed || !check_map(smoothed->atlas.finish({})).valid()) {
-      progress.note("the levels of the map could not be joined; the surface is simplified again, in one");
-      smoothed = smooth_levels(simplify(surface, options, whole, progress), smoothing, progress);
+    const bool joined = smoothed && (coarsest >= whole || check_map(smoothed->atlas.finish({})).valid());
+    if (joined) {
+      start.rounds = smoothed->rounds;
+      start.injective = std::move(smoothed->atlas);
+      break;
     }
-    start.rounds = smoothed->rounds;
-    start.injective = std::move(smoothed->atlas);
+    coarsest = std::min(whole, kLargerLevel * coarsest);
+    progress.note("the levels of the map could not be joined; the last one starts with " + std::to_string(coarsest) +
+                  " vertices instead");
+  }
+  if (start.injective) {
     const int added = start.injective->surface->mesh.vertex_count() - surface->mesh.vertex_count();
     if (added > 0) progress.note(std::to_string(added) + " vertices were added where the map needs more freedom");
   }
