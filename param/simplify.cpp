@@ -231,7 +231,7 @@ SimplifyResult Simplifier::run(int coarsest) {
   result_.map.emplace(level_.surface);
   pricer_.allow_chords();
   for (int v = 0; v < static_cast<int>(queued_.size()); ++v)  // what could not be removed before may be now
-    if (!queued_[v] && level_.vertex[v] >= 0) {
+    if (!queued_[v] && level_.vertex[v] >= 0 && surface_->halfedges.outgoing[v] >= 0) {
       queue_.push({0.0, v, ++stamp_[v]});
       stale_[v] = queued_[v] = 1;
     }

@@ -316,3 +316,16 @@ TEST_CASE("options out of range and unusable surfaces are refused by name") {
     CHECK(exit_status(e.cause()) == 3);
   }
 }
+
+TEST_CASE("a vertex that no face uses stays out of the simplification") {
+  Mesh mesh = shapes::sphere(2);
+  mesh.positions.insert(mesh.positions.begin(), Vec3(9.0, 9.0, 9.0));
+  for (Triangle& t : mesh.faces)
+    for (int& v : t) ++v;
+  ParameterizeOptions options;
+  options.base_vertices = 12;
+  Progress progress;
+  const ParameterizeResult result = parameterize(mesh, options, progress);
+  CHECK(check_map(result.map).valid());
+  CHECK(result.map.patch[0] < 0);
+}
