@@ -17,11 +17,11 @@ constexpr double kTether = 1e-4;
 class ClosestFit {
  public:
   ClosestFit(const SubdivisionLevel& finest, const FoldGuard& guard, std::vector<SurfaceSample>& samples,
-             double stiffness, std::vector<Vec3> start)
+             const FitEffort& effort, std::vector<Vec3> start)
       : finest_(finest),
         guard_(guard),
         samples_(samples),
-        stiffness_(stiffness),
+        effort_(effort),
         start_(std::move(start)),
         positions_(start_),
         free_(start_.size(), 1),
@@ -32,14 +32,12 @@ class ClosestFit {
   }
 
   const std::vector<Vec3>& run() {
-    constexpr int kMostRounds = 10;
-    constexpr double kEnough = 0.03;  // of the energy, by which a round must lower it for another one
     // Relative to coordinates up to 1: mean squares below are rounding.
     constexpr double kRounding = 1e-30;
     double energy = energy_at(positions_);
-    for (int round = 0; round < kMostRounds && energy > kRounding * finest_.face_count(); ++round) {
+    for (int round = 0; round < effort_.most_rounds && energy > kRounding * finest_.face_count(); ++round) {
       const double before = energy;
-      if (!step(energy) || energy > (1.0 - kEnough) * before) break;
+      if (!step(energy) || energy > (1.0 - effort_.enough) * before) break;
     }
     return positions_;
   }
@@ -55,7 +53,7 @@ class ClosestFit {
     double sum = 0.0;
     for (std::size_t i = 0; i < squared_.size(); ++i) sum += samples_[i].weight * squared_[i];
     for (const auto& [a, b] : finest_.edges)
-      sum += stiffness_ * (positions[a] - start_[a] - positions[b] + start_[b]).squaredNorm();
+      sum += effort_.stiffness * (positions[a] - start_[a] - positions[b] + start_[b]).squaredNorm();
     for (std::size_t v = 0; v < positions.size(); ++v) sum += kTether * (positions[v] - start_[v]).squaredNorm();
     return sum;
   }
@@ -75,7 +73,7 @@ class ClosestFit {
     }
     for (int e = 0; e < finest_.edge_count(); ++e) {
       const auto [a, b] = finest_.edges[e];
-      system.add_spring(e, stiffness_, -stiffness_ * (positions_[a] - start_[a] - positions_[b] + start_[b]));
+      system.add_spring(e, effort_.stiffness, -effort_.stiffness * (positions_[a] - start_[a] - positions_[b] + start_[b]));
     }
     for (std::size_t v = 0; v < positions_.size(); ++v)
       system.add_spring_to_place(static_cast<int>(v), kTether, -kTether * (positions_[v] - start_[v]));
@@ -114,7 +112,7 @@ class ClosestFit {
   const SubdivisionLevel& finest_;
   const FoldGuard& guard_;
   std::vector<SurfaceSample>& samples_;
-  double stiffness_;
+  const FitEffort effort_;
   const std::vector<Vec3> start_;
   std::vector<Vec3> positions_;
   std::vector<char> free_;
@@ -124,7 +122,7 @@ class ClosestFit {
 }  // namespace
 
 std::vector<Vec3> fit_closest(const SubdivisionLevel& finest, const FoldGuard& guard,
-                              std::vector<SurfaceSample> samples, double stiffness, const std::vector<Vec3>& start) {
+                              std::vector<SurfaceSample> samples, const FitEffort& effort, const std::vector<Vec3>& start) {
   // In units of the extent, a power of two, so that no square overflows.
   double extent = 0.0;
   for (const Vec3& p : start) extent = std::max(extent, (p - start[0]).cwiseAbs().maxCoeff());
@@ -133,7 +131,7 @@ std::vector<Vec3> fit_closest(const SubdivisionLevel& finest, const FoldGuard& g
   std::vector<Vec3> scaled(start.size());
   for (std::size_t v = 0; v < start.size(); ++v) scaled[v] = (start[v] - start[0]) / unit;
   for (SurfaceSample& sample : samples) sample.point = (sample.point - start[0]) / unit;
-  const std::vector<Vec3> fitted = ClosestFit(finest, guard, samples, stiffness, scaled).run();
+  const std::vector<Vec3> fitted = ClosestFit(finest, guard, samples, effort, scaled).run();
   std::vector<Vec3> positions = start;
   for (std::size_t v = 0; v < start.size(); ++v)
     if (fitted[v] != scaled[v]) positions[v] += unit * (fitted[v] - scaled[v]);

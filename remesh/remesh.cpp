@@ -48,13 +48,13 @@ int fit_steps(const Parameterization& map, int level) {
   return steps;
 }
 
-/// Of the springs between moves, where the samples over one face weigh 1.
-double stiffness_of(Positions positions) {
-  // A third of it costs up to 0.5 dB at 8 and 16 KB on Venus and the bunny, twice as much gives the same curves with
+FitEffort effort_of(Positions positions) {
+  // A third of the stiffness costs up to 0.5 dB at 8 and 16 KB on Venus and the bunny, twice as much gives the same curves with
   // ceilings 0.5 dB lower.
-  constexpr double kFitted = 5e-3;
-  // With three times as much the remeshing error of Venus and the bunny is 4% larger.
-  constexpr double kClosest = 5e-5;
+  constexpr FitEffort kFitted{5e-3};
+  // With three times as much the remeshing error of Venus and the bunny is 4% larger. The error is what counts here, so the
+  // rounds go on for less.
+  constexpr FitEffort kClosest{5e-5, 0.01, 20};
   return positions == Positions::Closest ? kClosest : kFitted;
 }
 
@@ -168,14 +168,14 @@ class Remesher {
     return sum;
   }
 
-  void fit(double stiffness) {
+  void fit(const FitEffort& effort) {
     std::vector<SurfaceSample> samples;
     for (std::vector<SurfaceSample>& chart : surface_samples_) {
       samples.insert(samples.end(), chart.begin(), chart.end());
       std::vector<SurfaceSample>().swap(chart);
     }
     const FoldGuard guard(finest_, fit_->surface_areas());
-    positions_ = fit_closest(finest_, guard, std::move(samples), stiffness, fit_->fit(positions_));
+    positions_ = fit_closest(finest_, guard, std::move(samples), effort, fit_->fit(positions_));
   }
 
   SemiregularMesh take() { return {level_, map_.base.vertex_count(), map_.base.faces, std::move(positions_)}; }
@@ -276,7 +276,7 @@ SemiregularMesh remesh(const Parameterization& map, const RemeshOptions& options
   if (remesher.gaps() > 0)
     progress.note(std::to_string(remesher.gaps()) +
                   " points of the remesh lie in no face of the map, which has folds; the nearest place was taken");
-  if (options.positions != Positions::Sampled) remesher.fit(stiffness_of(options.positions));
+  if (options.positions != Positions::Sampled) remesher.fit(effort_of(options.positions));
   progress.report("remesh", 1.0);
   return remesher.take();
 }

@@ -78,7 +78,7 @@ TEST_CASE("the fit is never farther from its samples than where it starts") {
       };
       for (double stiffness : {5e-3, 5e-5}) {
         const std::vector<Vec3> moved =
-            fit_closest(finest, FoldGuard(finest, areas), samples, stiffness, sampled.positions);
+            fit_closest(finest, FoldGuard(finest, areas), samples, FitEffort{stiffness}, sampled.positions);
         CHECK(sum_of_squares(moved) < sum_of_squares(sampled.positions));
         // Nothing turned that the guard sees.
         std::vector<char> held(moved.size(), 0);
@@ -100,5 +100,5 @@ TEST_CASE("samples that lie on the remesh move nothing") {
     const LevelPlace place = {f, {0.5, 0.25, 0.25}};
     samples.push_back({place.at(finest, mesh.positions), 1.0, place});
   }
-  CHECK(worst(fit_closest(finest, FoldGuard(finest, areas), samples, 5e-3, mesh.positions), mesh.positions) < 1e-14);
+  CHECK(worst(fit_closest(finest, FoldGuard(finest, areas), samples, FitEffort{5e-3}, mesh.positions), mesh.positions) < 1e-14);
 }
