@@ -24,6 +24,7 @@ Json method_report(const MethodSummary& m) {
     report.update({{"base_vertices", m.base_vertices},
                    {"base_faces", m.base_faces},
                    {"level", m.level},
+                   {"positions", m.positions},
                    {"ceiling_db", m.ceiling_db}});
   if (m.gain)
     report["gain"] = {{"mean_db", m.gain->mean_db}, {"from_bytes", m.gain->from_bytes}, {"to_bytes", m.gain->to_bytes}};

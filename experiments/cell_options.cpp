@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace gsp {
 
@@ -315,6 +316,13 @@ std::string further_options(const CellOptions& options) {
     text += fmt::format("{}{}={}", text.empty() ? "" : " ", axis.name, to_string(axis.get(options)));
   }
   return text;
+}
+
+std::string further_option(const std::string& text, const std::string& name) {
+  std::istringstream words(text);
+  for (std::string word; words >> word;)
+    if (word.starts_with(name + '=')) return word.substr(name.size() + 1);
+  return "";
 }
 
 }  // namespace gsp

@@ -88,5 +88,7 @@ CellOptions options_from_json(const std::string& text);
 
 /// All options that have no column of their own in curve.csv, as "name=value name=value".
 std::string further_options(const CellOptions& options);
+/// The value of one of them in that text; empty where it has none.
+std::string further_option(const std::string& text, const std::string& name);
 
 }  // namespace gsp

@@ -105,6 +105,7 @@ CurvePoint point_of(const Row& row) {
   row.read("standard_error_db", p.standard_error_db);
   row.read("remesh_error", p.remesh_error);
   row.read("seed", p.seed);
+  p.options = row.text("options");
   return p;
 }
 

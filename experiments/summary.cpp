@@ -8,6 +8,8 @@
 #include <iterator>
 #include <ostream>
 
+#include "experiments/cell_options.h"
+
 namespace gsp {
 
 namespace {
@@ -48,13 +50,14 @@ void print_model(std::ostream& out, const CurveSummary& summary) {
   if (!summary.failure.empty()) fmt::print(out, "  FAILED ({}): {}\n", summary.cause, summary.failure);
   if (summary.methods.empty()) return;
   const int width = name_width(summary);
-  fmt::print(out, "  {:<{}}{:>6}{:>6}{:>9}", "method", width, "base", "level", "ceiling");
+  fmt::print(out, "  {:<{}}{:>6}{:>6}{:>11}{:>9}", "method", width, "base", "level", "positions", "ceiling");
   for (double level : kTableLevelsDb) fmt::print(out, "{:>9}", fmt::format("{:.0f} dB", level));
   fmt::print(out, "{:>10}{:>20}{:>10}\n", "gain", "over bytes", "ratio");
   for (const MethodSummary& m : summary.methods) {
     const bool anchor = m.base_vertices == 0;
-    fmt::print(out, "  {:<{}}{:>6}{:>6}{:>9}", m.method, width, anchor ? "-" : std::to_string(m.base_vertices),
-               anchor ? "-" : std::to_string(m.level), anchor ? "-" : fmt::format("{:.1f}", m.ceiling_db));
+    fmt::print(out, "  {:<{}}{:>6}{:>6}{:>11}{:>9}", m.method, width, anchor ? "-" : std::to_string(m.base_vertices),
+               anchor ? "-" : std::to_string(m.level), m.positions.empty() ? "-" : m.positions,
+               anchor ? "-" : fmt::format("{:.1f}", m.ceiling_db));
     for (const auto& bytes : m.bytes_at) fmt::print(out, "{:>9}", cell(bytes, 0));
     const std::string range = m.gain ? fmt::format("{:.0f}..{:.0f}", m.gain->from_bytes, m.gain->to_bytes) : "-";
     fmt::print(out, "{:>10}{:>20}{:>10}\n", m.gain ? fmt::format("{:+.2f} dB", m.gain->mean_db) : "-", range,
@@ -116,6 +119,7 @@ CurveSummary summarize(const std::string& model, const std::vector<CurveSeries>&
     m.base_vertices = points.front().base_vertices;
     m.base_faces = points.front().base_faces;
     m.level = points.front().level;
+    m.positions = further_option(points.front().options, "positions");
     for (double level : kTableLevelsDb) m.bytes_at.push_back(bytes_at(curve, level));
     if (summary.methods.size() == 1) {
       first = curve;
@@ -169,7 +173,8 @@ void print_summaries(std::ostream& out, const std::vector<CurveSummary>& summari
   fmt::print(
       out,
       "PSNR = 20 log10(bounding-box diagonal of the input / RMS distance), RMS the larger of both directions.\n"
-      "ceiling: PSNR of the uncoded remesh. 50 dB ...: bytes at which the curve reaches it.\n"
+      "positions: what the remesh's vertices are; the paper's are sampled. ceiling: PSNR of the uncoded remesh.\n"
+      "50 dB ...: bytes at which the curve reaches it.\n"
       "gain: PSNR of {} less that of the row's method, mean over log-bytes from {:.0f} bytes up to where the first\n"
       "of the two curves is within {:.0f} dB of its own ceiling. ratio: the row's bytes over those of {} at {:.0f} "
       "dB.\n"

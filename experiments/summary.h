@@ -28,6 +28,7 @@ struct CurveSeries {
 struct MethodSummary {
   std::string method;  ///< name of the series
   int base_vertices = 0, base_faces = 0, level = 0;
+  std::string positions;                        ///< of the remesh: fitted, sampled or closest; empty for the anchors
   double ceiling_db = 0.0;                      ///< -20·log10(remeshing error); 0 for the anchors, which have none
   std::vector<std::optional<double>> bytes_at;  ///< at kTableLevelsDb
   std::optional<Gain> gain;                     ///< of the first method over this one; empty for the first itself

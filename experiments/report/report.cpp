@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "experiments/cell_options.h"
 #include "experiments/curve_csv.h"
 #include "experiments/report/page.h"
 #include "experiments/report/paper.h"
@@ -112,7 +113,11 @@ class Report {
 
   Json curve_json(const StoredCell& cell, const MethodSummary* summary) const {
     Json points = Json::array();
-    for (const CurvePoint& p : cell.points()) points.push_back(point_json(p));
+    std::string positions;
+    for (const CurvePoint& p : cell.points()) {
+      points.push_back(point_json(p));
+      positions = further_option(p.options, "positions");
+    }
     Json bytes_at = Json::array();
     for (std::size_t i = 0; i < std::size(kTableLevelsDb); ++i)
       bytes_at.push_back(summary ? optional(summary->bytes_at[i]) : Json());
@@ -124,6 +129,7 @@ class Report {
             {"ceiling_db", optional(cell.number("ceiling_db"))},
             {"base_vertices", optional(cell.number("base_vertices"))},
             {"level", optional(cell.number("level"))},
+            {"positions", positions.empty() ? Json() : Json(positions)},
             {"remesh_error", optional(cell.number("remesh_error"))},
             {"paper_error", anchor ? Json() : optional(paper_remesh_error(cell.model))},
             {"bytes_at", bytes_at},

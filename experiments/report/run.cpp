@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "experiments/cell_options.h"
 #include "experiments/curve_csv.h"
 
 namespace gsp {
@@ -33,6 +34,9 @@ StoredCell first_of(const CurvePoint& point, const fs::path& folder) {
   cell.options.method = point.method;
   cell.options.parameterize.gamma = point.gamma;
   cell.options.parameterize.mu = point.mu;
+  const std::string positions = further_option(point.options, "positions");
+  for (Positions p : kPositions)
+    if (positions == positions_name(p)) cell.options.remesh.positions = p;
   cell.status = CellStatus::Done;
   if (point.remesh_error > 0.0) {
     StageResult map;

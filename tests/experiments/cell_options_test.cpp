@@ -55,3 +55,15 @@ TEST_CASE("options that change nothing for a method do not make cells differ") {
   CHECK(options_json(normalized(gsp)) != options_json(of_method("gsp")));
   CHECK(options_json(draco, StageKind::Parameterize) == "{}");
 }
+
+TEST_CASE("further options are read back from their text") {
+  CellOptions options;
+  options.remesh.positions = Positions::Closest;
+  const std::string text = further_options(options);
+  CHECK(further_option(text, "positions") == "closest");
+  CHECK(further_option(text, "osition").empty());
+  CHECK(further_option("a=b=c d=", "a") == "b=c");
+  CHECK(further_option("a=b d=", "d").empty());
+  options.method = "draco";
+  CHECK(further_option(further_options(options), "positions").empty());
+}

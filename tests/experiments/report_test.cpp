@@ -142,6 +142,7 @@ TEST_CASE("where no setting beats the reference, the report says so, and of mode
 TEST_CASE("a report of a curve folder is one page that needs nothing else") {
   const TemporaryFolder folder;
   std::vector<CurvePoint> points = straight_curve("</script>horse", "gsp", 1.0);
+  for (CurvePoint& point : points) point.options = "weights=uniform positions=sampled";
   append(points, straight_curve("</script>horse", "draco", 3.0));
   write_curve_csv(folder.file("curve.csv"), points);
   Progress silent;
@@ -151,6 +152,7 @@ TEST_CASE("a report of a curve folder is one page that needs nothing else") {
   CHECK(contains(page, "\\u003c/script>horse"));
   CHECK_FALSE(contains(page, "</script>horse"));
   CHECK_FALSE(contains(page, "@@"));
+  CHECK(contains(page, "\"positions\":\"sampled\""));
   CHECK_FALSE(contains(page, "src=\"http"));
   CHECK(contains(page, "needs 67% fewer bytes than draco"));
   CHECK_THROWS_AS(read_run(folder.file("nothing"), {}), Error);

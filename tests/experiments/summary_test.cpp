@@ -18,6 +18,7 @@ void add_method(std::vector<CurvePoint>& points, const std::string& method, doub
     point.psnr_db = std::min(db_at_256 + 5.0 * octave, ceiling_db > 0.0 ? ceiling_db : 1e9);
     point.remesh_error = ceiling_db > 0.0 ? std::pow(10.0, -ceiling_db / 20.0) : 0.0;
     point.base_vertices = ceiling_db > 0.0 ? 20 : 0;
+    point.options = ceiling_db > 0.0 ? "weights=uniform positions=sampled" : "";
     points.push_back(point);
   }
 }
@@ -33,6 +34,7 @@ TEST_CASE("a summary gives back the gain, the range and the ratio that the curve
   REQUIRE(summary.methods.size() == 3);
   const MethodSummary& gsp = summary.methods[0];
   CHECK(gsp.ceiling_db == Approx(80.0));
+  CHECK(gsp.positions == "sampled");
   CHECK_FALSE(gsp.gain);
   // 65 dB: gsp needs (65-43)/5 octaves over 256 bytes.
   CHECK(*gsp.bytes_at[3] == Approx(256.0 * std::exp2(22.0 / 5.0)));
@@ -54,6 +56,7 @@ TEST_CASE("a summary gives back the gain, the range and the ratio that the curve
   const MethodSummary& draco = summary.methods[2];
   CHECK(draco.gain->mean_db == Approx(8.0));
   CHECK(draco.ceiling_db == 0.0);
+  CHECK(draco.positions.empty());
 }
 
 TEST_CASE("curves that lie in different ranges have no gain, and nothing is invented") {
@@ -82,6 +85,6 @@ TEST_CASE("the table names failures, means and the definition of its numbers") {
   const std::string text = out.str();
   for (const char* part : {"FAILED (non-manifold-edge): an edge has three faces (edge 7)", "+3.00 dB",
                            "gsp over maps-smoothed: +3.00 dB (1 of 2 models), BD-rate -34.0% (1 of 2 models)",
-                           "PSNR = 20 log10", "ceiling:"})
+                           "PSNR = 20 log10", "ceiling:", "  sampled  "})
     CHECK(text.find(part) != std::string::npos);
 }

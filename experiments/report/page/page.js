@@ -116,7 +116,7 @@
   }
 
   function fillTable() {
-    const head = ['', 'base', 'level', 'ceiling', 'error', 'paper', ...run.levels_db.map((l) => `${l} dB`), 'BD-rate'];
+    const head = ['', 'base', 'level', 'positions', 'ceiling', 'error', 'paper', ...run.levels_db.map((l) => `${l} dB`), 'BD-rate'];
     const some = (value, format) => (value === null || value === undefined ? '–' : format(value));
     const fixed = (digits) => (v) => v.toFixed(digits);
     const rows = [element('tr', {}, ...head.map((text) => element('th', {}, text)))];
@@ -125,7 +125,7 @@
       const name = element('td', { colspan: head.length }, model.name, element('span', { class: 'note' }, size));
       rows.push(element('tr', { class: 'model' }, name));
       for (const c of model.curves.filter((one) => one.points.length)) {
-        const cells = [c.label, some(c.base_vertices, String), some(c.level, String), some(c.ceiling_db, fixed(1)),
+        const cells = [c.label, some(c.base_vertices, String), some(c.level, String), some(c.positions, String), some(c.ceiling_db, fixed(1)),
           some(c.remesh_error, (v) => (1e5 * v).toFixed(2)), some(c.paper_error, (v) => (1e5 * v).toFixed(2)),
           ...c.bytes_at.map((b) => some(b, (v) => Math.round(v).toLocaleString('en'))),
           c.label === run.reference ? '0' : some(c.bd_rate, (v) => `${v > 0 ? '+' : ''}${v.toFixed(1)} %`)];
@@ -137,7 +137,7 @@
     byId('table').replaceChildren(...rows);
     byId('table-note').textContent = `Base: vertices of the base complex. Error: RMS distance of the uncoded remesh over the ` +
       `diagonal, in units of 1e-5, beside that of the paper's Table 1, ` +
-      `whose vertices are samples of the surface; here they are fitted unless the recipe says positions="sampled". ` +
+      `which is of sampled positions, so only rows of those compare with it. ` +
       `dB columns: bytes at which the curve reaches it. ` +
       `BD-rate: mean bytes against ${run.reference} at equal PSNR, below the ceilings less 10 dB; more than 0 is worse.`;
   }
