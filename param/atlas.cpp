@@ -79,6 +79,13 @@ std::vector<BaseFan> base_fans(const BaseComplex& base) {
   return fans;
 }
 
+int find_base_face(const BaseComplex& base, const std::vector<BaseFan>& fans, const std::array<int, 3>& corners) {
+  for (const BaseFan::Sector& s : fans[corners[0]].sectors)
+    if (base.faces[s.face][(s.corner + 1) % 3] == corners[1] && base.faces[s.face][(s.corner + 2) % 3] == corners[2])
+      return s.face;
+  return -1;
+}
+
 void Atlas::change_chart(int vertex, int chart, const Transition& change) {
   patch[vertex] = chart;
   position[vertex] = change.apply(position[vertex]);
@@ -177,15 +184,12 @@ void take_base_face(const BaseComplex& base, const std::vector<BaseFan>& fans, c
   for (int k = 0; k < 3; ++k) z[k] = frame.to_chart[k].apply(face.position[k]);
   for (int k = 0; k < 3; ++k)
     if (std::abs(std::abs(z[(k + 1) % 3] - z[k]) - 1.0) > 1e-9) return;
-  for (const BaseFan::Sector& s : fans[face.corner[0]].sectors) {
-    const Triangle& c = base.faces[s.face];
-    if (c[(s.corner + 1) % 3] != face.corner[1] || c[(s.corner + 2) % 3] != face.corner[2]) continue;
-    frame.chart = s.face;
-    for (int k = 0; k < 3; ++k) {
-      const BaseFan& fan = fans[face.corner[k]];
-      frame.to_chart[k] = fan.develop(fan.find(s.face)).inverse() * fan.develop(fan.find(face.patch[k]));
-    }
-    return;
+  const int found = find_base_face(base, fans, face.corner);
+  if (found < 0) return;
+  frame.chart = found;
+  for (int k = 0; k < 3; ++k) {
+    const BaseFan& fan = fans[face.corner[k]];
+    frame.to_chart[k] = fan.develop(fan.find(found)).inverse() * fan.develop(fan.find(face.patch[k]));
   }
 }
 

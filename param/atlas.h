@@ -35,6 +35,9 @@ struct BaseFan {
 
 std::vector<BaseFan> base_fans(const BaseComplex& base);
 
+/// The base face with three base vertices in that order, -1 where there is none.
+int find_base_face(const BaseComplex& base, const std::vector<BaseFan>& fans, const std::array<int, 3>& corners);
+
 /// Whether a point lies in its chart's triangle, or outside by rounding.
 bool inside_chart(Complex z);
 

@@ -80,9 +80,7 @@ bool GrowingMap::knows_chart(int face) const {
     const Complex there = loose.transition[3 * face + k].apply(loose.position[t[(k + 1) % 3]]);
     if (std::abs(std::abs(there - loose.position[t[k]]) - 1.0) > kBaseEdge) return false;
   }
-  return std::any_of(fans[c[0]].sectors.begin(), fans[c[0]].sectors.end(), [&](const BaseFan::Sector& s) {
-    return base.faces[s.face][(s.corner + 1) % 3] == c[1] && base.faces[s.face][(s.corner + 2) % 3] == c[2];
-  });
+  return find_base_face(base, fans, c) >= 0;
 }
 
 Atlas::FaceFrame GrowingMap::frame(int face) const {
@@ -237,11 +235,7 @@ void GrowingMap::insert(int face, const std::array<double, 3>& weights, int midd
 }
 
 Atlas GrowingMap::part(const std::vector<int>& faces, std::vector<int>& vertices) const {
-  vertices.clear();
-  for (int f : faces)
-    for (int v : links.faces[f]) vertices.push_back(v);
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  vertices = links.vertices_of(faces);
   const auto number = [&](int v) {
     return static_cast<int>(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin());
   };

@@ -182,8 +182,7 @@ void Pricer::price(int vertex, Candidate& candidate) {
   const auto& positions = surface_.mesh.positions;
   outer_area_.assign(star_.triangles.size(), -1.0);
   for (std::size_t k = 0; k < star_.triangles.size(); ++k) {
-    const int t = star_.triangles[k];
-    const int other = complex_.neighbour(t, (complex_.corner_index(t, vertex) + 1) % 3);
+    const int other = complex_.opposite(star_.triangles[k], vertex);
     if (other < 0) continue;
     const Triangle& c = complex_.corners(other);
     outer_area_[k] = triangle_area(positions[c[0]], positions[c[1]], positions[c[2]]);

@@ -24,14 +24,22 @@ struct Entry {
 };
 
 constexpr int kRatio = 8;  // most vertices of one level for each of the next
-constexpr int kAutomaticRatio =
-    16;  // of the surface for each of the coarsest level, where the base's size is not known before
+constexpr int kAutomaticRatio = 16;  // vertices for each of the coarsest level, where the base's size is not known
 constexpr int kSmallestLevel = 4000;
 constexpr int kLevelPerBase = 16;  // vertices of the coarsest level for each of the base
 
 int used_vertices(const Surface& surface) {
   return static_cast<int>(std::count_if(surface.halfedges.outgoing.begin(), surface.halfedges.outgoing.end(),
                                         [](int h) { return h >= 0; }));
+}
+
+/// A triangle of ring vertices as indices into the ring.
+RingTriangle in_ring(const Star& star, const Triangle& vertices) {
+  RingTriangle t;
+  for (int k = 0; k < 3; ++k)
+    t[k] = static_cast<int>(std::find(star.ring.begin(), star.ring.end(), vertices[k]) - star.ring.begin());
+  std::sort(t.begin(), t.end());
+  return t;
 }
 
 class Simplifier {
@@ -42,8 +50,8 @@ class Simplifier {
         progress_(progress),
         map_(surface, false),
         pricer_(*surface_, map_.complex(), map_.locations(), map_.points(), options_),
-        stop_(used_vertices(*surface)),
         start_(used_vertices(*surface)),
+        stop_(start_),
         remaining_(start_) {}
 
   SimplifyResult run(int coarsest);
@@ -69,8 +77,8 @@ class Simplifier {
   Progress& progress_;
   ShrinkingMap map_;
   Pricer pricer_;
-  AutomaticStop stop_;
   const int start_;  ///< vertices of the surface
+  AutomaticStop stop_;
   int remaining_;
   bool ended_ = false;  ///< by the automatic stop
   SimplifyResult result_;
@@ -108,8 +116,7 @@ void Simplifier::price_all() {
 /// Whether an edge of the filling has come to join two vertices of the ring elsewhere since it was chosen.
 bool Simplifier::has_taken_edge(const Star& star, const Candidate& candidate) const {
   return std::any_of(candidate.triangles.begin(), candidate.triangles.end(), [&](const RingTriangle& t) {
-    const bool closing =
-        t[0] == 0 && t[2] == star.size() - 1;  // an edge of the ring but where the star is on a boundary
+    const bool closing = t[0] == 0 && t[2] == star.size() - 1;  // an edge of the ring, but for a star on a boundary
     return (!closing || star.boundary) && map_.complex().edge_exists(star.ring[t[0]], star.ring[t[2]]);
   });
 }
@@ -162,13 +169,10 @@ Star Simplifier::of_level(const Star& star) const {
 bool Simplifier::remove_from_overlay(const Star& star, const std::vector<RingTriangle>& triangles) {
   Star there;
   result_.map->complex().gather(level_.vertex[star.center], there);
-  Removal removal{there.center, triangles};
-  for (RingTriangle& t : removal.triangles) {
-    for (int& k : t)
-      k = static_cast<int>(std::find(there.ring.begin(), there.ring.end(), level_.vertex[star.ring[k]]) -
-                           there.ring.begin());
-    std::sort(t.begin(), t.end());
-  }
+  Removal removal{there.center, {}};
+  for (const RingTriangle& t : triangles)
+    removal.triangles.push_back(
+        in_ring(there, {level_.vertex[star.ring[t[0]]], level_.vertex[star.ring[t[1]]], level_.vertex[star.ring[t[2]]]}));
   return result_.map->remove(removal);
 }
 
@@ -179,7 +183,7 @@ bool Simplifier::remove(const Star& star, const Candidate& candidate) {
     return false;
   const TriangleComplex& complex = map_.complex();
   for (int t : star.triangles) {
-    const int other = complex.neighbour(t, (complex.corner_index(t, star.center) + 1) % 3);
+    const int other = complex.opposite(t, star.center);
     if (other < 0) continue;
     for (int v : complex.corners(other)) beside_[v] = 1;
   }
@@ -250,13 +254,7 @@ void RemovalScript::add(int vertex, const std::vector<Triangle>& triangles) {
 void RemovalScript::place(int removal, const Star& star, Removal& made) const {
   made.vertex = vertices_[removal];
   made.triangles.clear();
-  for (int i = first_[removal]; i < first_[removal + 1]; ++i) {
-    RingTriangle t;
-    for (int k = 0; k < 3; ++k)
-      t[k] = static_cast<int>(std::find(star.ring.begin(), star.ring.end(), triangles_[i][k]) - star.ring.begin());
-    std::sort(t.begin(), t.end());
-    made.triangles.push_back(t);
-  }
+  for (int i = first_[removal]; i < first_[removal + 1]; ++i) made.triangles.push_back(in_ring(star, triangles_[i]));
 }
 
 SimplifyResult simplify(std::shared_ptr<const Surface> surface, const ParameterizeOptions& options, int coarsest,

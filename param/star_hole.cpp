@@ -84,13 +84,9 @@ Complex StarHole::in_plane(int v) const {
 }
 
 std::vector<int> StarHole::faces_within(int rings) const {
-  std::vector<int> faces = region, vertices;
+  std::vector<int> faces = region;
   for (int ring = 0; ring < rings; ++ring) {
-    vertices.clear();
-    for (int f : faces)
-      for (int v : map.links.faces[f]) vertices.push_back(v);
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    const std::vector<int> vertices = map.links.vertices_of(faces);
     faces.clear();
     for (int v : vertices) map.links.for_each_outgoing(v, map.boundary(v), [&](int h) { faces.push_back(h / 3); });
     std::sort(faces.begin(), faces.end());

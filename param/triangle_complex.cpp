@@ -96,8 +96,7 @@ void TriangleComplex::replace(const Star& star, const std::vector<RingTriangle>&
   const int n = star.size();
   std::vector<int> outer(star.triangles.size());
   for (std::size_t k = 0; k < outer.size(); ++k) {
-    const int t = star.triangles[k];
-    outer[k] = neighbours_[t][(corner_index(t, star.center) + 1) % 3];
+    outer[k] = opposite(star.triangles[k], star.center);
   }
   std::vector<int> outer_edge(outer.size(), -1);
   for (std::size_t k = 0; k < outer.size(); ++k)

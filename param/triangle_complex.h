@@ -44,6 +44,9 @@ class TriangleComplex {
   /// Index of the edge of `triangle` behind which `other` lies, -1 if they are no neighbours.
   int edge_towards(int triangle, int other) const;
 
+  /// The triangle across the edge opposite to a corner; -1 on a boundary.
+  int opposite(int triangle, int vertex) const { return neighbour(triangle, (corner_index(triangle, vertex) + 1) % 3); }
+
   void gather(int vertex, Star& star) const;
   bool edge_exists(int a, int b) const;
   /// Component of the surface the vertex belongs to, and how many vertices of the complex it still has.

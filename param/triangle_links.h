@@ -29,6 +29,15 @@ struct TriangleLinks {
   int to(int h) const { return from(Halfedges::next(h)); }
   bool alive(int face) const { return faces[face][0] >= 0; }
 
+  /// The vertices of some faces, ascending.
+  std::vector<int> vertices_of(const std::vector<int>& some) const {
+    std::vector<int> vertices;
+    for (int f : some) vertices.insert(vertices.end(), faces[f].begin(), faces[f].end());
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+  }
+
   void join(int a, int b) {
     if (a >= 0) twin[a] = b;
     if (b >= 0) twin[b] = a;

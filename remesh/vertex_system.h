@@ -22,7 +22,7 @@ class VertexSystem {
   void add_spring(int edge, double stiffness, const Vec3& pull);
   void add_spring_to_place(int vertex, double stiffness, const Vec3& pull);
 
-  /// #V moves, zero of vertices that are not free: the least energy to 1e-3 in its own norm, by conjugate gradients
+  /// #V moves, zero of vertices that are not free: the least energy to 1e-2 in its own norm, by conjugate gradients
   /// preconditioned by the vertices' blocks. Needs a positive definite system. O(V) an iteration, one thread.
   std::vector<Vec3> solve() const;
 
