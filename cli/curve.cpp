@@ -20,6 +20,7 @@ struct CurveArguments {
   std::string output;
   std::vector<std::string> methods = {"gsp", "maps-smoothed"};
   std::string wavelet = "loop";
+  std::vector<std::string> modes = {stream_mode_name(StreamMode::Embedded)};
   bool no_anchors = false;
   CurveOptions curve;
 };
@@ -30,6 +31,8 @@ int run_curve(CurveArguments& options, Context& context) {
   for (const std::string& word : options.methods) options.curve.methods.push_back(method_of(word));
   options.curve.anchors = !options.no_anchors;
   options.curve.encode.wavelet = wavelet_of(options.wavelet);
+  options.curve.modes.clear();
+  for (const std::string& word : options.modes) options.curve.modes.push_back(stream_mode_of(word));
   const CurveJobResult job = curve_job(surface_files(options.meshes), options.output, options.curve, progress);
   if (context.json) {
     print_report(context, {{"models", summaries_report(job.models)}, {"files", job.files}});
@@ -52,6 +55,8 @@ void add_curve(CLI::App& app, Context& context) {
   command.parameterize_options(options->curve.parameterize);
   command.remesh_options(options->curve.remesh);
   command.encode_options(options->wavelet, options->curve.encode);
+  command.choices("--modes", options->modes, axis("mode").words,
+                  "how each size is coded: the prefix of one embedded stream; fixed, a stream for that size alone");
   command.sizes("--budgets", options->curve.budgets, "bytes to decode [256, 512, 1024, ... and the whole stream]");
   command.sampling_options(options->curve.samples, options->curve.seed);
   command.flag("--no-anchors", options->no_anchors, "leave Draco and decimate-then-Draco out");

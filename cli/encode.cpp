@@ -5,6 +5,7 @@
 #include "cli/options.h"
 #include "cli/print.h"
 #include "coder/codec.h"
+#include "experiments/cell_options.h"
 #include "experiments/targets.h"
 #include "mesh/atomic_file.h"
 #include "remesh/recover_levels.h"
@@ -18,7 +19,7 @@ struct EncodeArguments {
   // Ahead of Loop on the paper's models by 0.4 dB, on rougher maps by more (bench/README.md).
   std::string wavelet = wavelet_name(Wavelet::ButterflyLifted);
   EncodeOptions encode;
-  std::string mode = "embedded";
+  std::string mode = stream_mode_name(StreamMode::Embedded);
   std::size_t bytes = 0;
   double psnr = 0.0;
 };
@@ -54,7 +55,8 @@ Bytes fixed_stream(const SemiregularMesh& mesh, const EncodeOptions& encode_opti
 int run_encode(const EncodeArguments& options, Context& context) {
   Progress progress = context.console.progress();
   const SemiregularMesh mesh = read_or_recover(options.mesh);
-  if (options.mode == "fixed" && options.bytes == 0 && options.psnr == 0.0)
+  const bool fixed = stream_mode_of(options.mode) == StreamMode::Fixed;
+  if (fixed && options.bytes == 0 && options.psnr == 0.0)
     throw Error(Cause::BadOption, "--mode fixed needs --bytes or --psnr");
   EncodeOptions encode_options = options.encode;
   encode_options.wavelet = wavelet_of(options.wavelet);
@@ -63,8 +65,8 @@ int run_encode(const EncodeArguments& options, Context& context) {
   const std::size_t header = header_bytes(whole);
   if (options.bytes > 0 && options.bytes < header)
     throw Error(Cause::BadOption, "the header alone takes " + std::to_string(header) + " bytes");
-  const Bytes stream = options.mode == "fixed" ? fixed_stream(mesh, encode_options, options, progress)
-                                               : embedded_stream(whole, mesh, options, progress);
+  const Bytes stream = fixed ? fixed_stream(mesh, encode_options, options, progress)
+                             : embedded_stream(whole, mesh, options, progress);
 
   AtomicFile file(options.output);
   file.stream().write(reinterpret_cast<const char*>(stream.data()), static_cast<std::streamsize>(stream.size()));
@@ -91,7 +93,7 @@ void add_encode(CLI::App& app, Context& context) {
   command.encode_options(options->wavelet, options->encode);
   command.size("--bytes", options->bytes, 0, std::numeric_limits<std::size_t>::max(),
                "stop after N bytes; 0 keeps the whole stream");
-  command.choice("--mode", options->mode, {"embedded", "fixed"},
+  command.choice("--mode", options->mode, axis("mode").words,
                  "embedded: any prefix is as good as it can be; fixed: the best for --bytes or --psnr alone");
   constexpr double kMostPsnr = 300.0;
   command.number("--psnr", options->psnr, 0.0, kMostPsnr,

@@ -25,6 +25,7 @@ Json method_report(const MethodSummary& m) {
                    {"base_faces", m.base_faces},
                    {"level", m.level},
                    {"positions", m.positions},
+                   {"coder", m.coder},
                    {"ceiling_db", m.ceiling_db}});
   if (m.gain)
     report["gain"] = {{"mean_db", m.gain->mean_db}, {"from_bytes", m.gain->from_bytes}, {"to_bytes", m.gain->to_bytes}};

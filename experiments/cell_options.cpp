@@ -20,6 +20,7 @@ constexpr Method kMethods[] = {Method::Gsp, Method::Maps, Method::MapsSmoothed, 
 constexpr Objective kObjectives[] = {Objective::Distortion, Objective::Linear};
 constexpr Weights kWeights[] = {Weights::MeanValue, Weights::Cotangent, Weights::Uniform};
 constexpr Corners kCorners[] = {Corners::Relax, Corners::Gradient};
+constexpr StreamMode kStreamModes[] = {StreamMode::Embedded, StreamMode::Fixed};
 constexpr double kMostWeight = 1e6;
 constexpr int kMostRelaxations = 1000;
 constexpr double kMostInt = std::numeric_limits<int>::max();
@@ -135,6 +136,9 @@ std::vector<Axis> code_axes() {
        {"1", "2", "4", "8"},
        [](const Options& o) { return Value(std::int64_t{o.encode.tangential_ratio}); },
        [](Options& o, const Value& v) { o.encode.tangential_ratio = static_cast<int>(integer(v)); }},
+      {"mode", StageKind::Measure, Kind::Word, 0, 0, words_of(kStreamModes, stream_mode_name),
+       [](const Options& o) { return Value(stream_mode_name(o.mode)); },
+       [](Options& o, const Value& v) { o.mode = stream_mode_of(word(v)); }},
       {"samples",
        StageKind::Remesh,
        Kind::Integer,
@@ -214,6 +218,16 @@ Method method_of(const std::string& word) {
     if (word == method_name(method)) return method;
   throw Error(Cause::BadOption, "unknown method " + word);
 }
+
+const char* stream_mode_name(StreamMode mode) { return mode == StreamMode::Fixed ? "fixed" : "embedded"; }
+
+StreamMode stream_mode_of(const std::string& name) {
+  for (StreamMode mode : kStreamModes)
+    if (name == stream_mode_name(mode)) return mode;
+  throw Error(Cause::BadOption, "unknown mode " + name);
+}
+
+const char* coder_name(StreamMode mode) { return mode == StreamMode::Fixed ? "gsp-fixed" : "gsp"; }
 
 std::vector<std::string> preset_words() { return {"default", "paper"}; }
 
@@ -307,8 +321,9 @@ CellOptions options_from_json(const std::string& text) {
 }
 
 std::string further_options(const CellOptions& options) {
-  static const std::vector<std::string> columns = {"method", "gamma",   "mu",      "base_vertices",
-                                                   "level",  "wavelet", "samples", "seed"};
+  // The mode stands in the column `coder`.
+  static const std::vector<std::string> columns = {"method",  "gamma", "mu",      "base_vertices", "level",
+                                                   "wavelet", "mode",  "samples", "seed"};
   std::string text;
   for (const Axis& axis : axes()) {
     if (std::find(columns.begin(), columns.end(), axis.name) != columns.end() || !axis.applies_to(options.method))

@@ -21,12 +21,26 @@ const char* stage_name(StageKind kind);
 /// The inverse. Throws Error(BadOption).
 StageKind stage_of(const std::string& name);
 
+/// How each size of a remesh is coded.
+enum class StreamMode {
+  Embedded,  ///< as the prefix of one stream, which serves every size (`encode`)
+  Fixed      ///< as a stream made for that size alone (`encode_fixed`)
+};
+
+/// "embedded", "fixed".
+const char* stream_mode_name(StreamMode mode);
+/// The inverse. Throws Error(BadOption).
+StreamMode stream_mode_of(const std::string& name);
+/// What the column `coder` of curve.csv calls it: "gsp", "gsp-fixed".
+const char* coder_name(StreamMode mode);
+
 /// Everything that a cell depends on besides its surface.
 struct CellOptions {
   std::string method = "gsp";        ///< gsp, maps, maps-smoothed, hybrid, draco, decimate-draco
   ParameterizeOptions parameterize;  ///< whose `method` says nothing here
   RemeshOptions remesh;
   EncodeOptions encode;
+  StreamMode mode = StreamMode::Embedded;
   std::vector<std::size_t> budgets;  ///< bytes to decode; empty: 256, 512, 1024, ... and the whole stream
   std::size_t samples = 200000;  ///< of the distance, per direction; decimate-draco, which has many points, takes half
   std::uint64_t seed = 1;        ///< of the samples; they measure the remesh too

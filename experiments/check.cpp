@@ -15,6 +15,12 @@ namespace {
 
 constexpr const char* kNone = "-";
 
+// The value of an option where nothing is said of it; "-" where there is no such option.
+std::string default_text(const std::string& name) {
+  const auto axis = std::find_if(axes().begin(), axes().end(), [&](const Axis& a) { return name == a.name; });
+  return axis == axes().end() ? kNone : to_string(axis->get({}));
+}
+
 std::string text(double value) { return fmt::format("{:.6g}", value); }
 
 BdCurve bd_curve_of(const BaselineRow& row) {
@@ -75,9 +81,10 @@ class Checker {
     std::set<std::string> names;
     for (const auto* options : {&before.options, &now.options})
       for (const auto& [name, value] : *options) names.insert(name);
+    // An option that is newer than the baseline had its default when that was measured.
     const auto value_of = [](const BaselineRow& row, const std::string& name) {
       const auto found = row.options.find(name);
-      return found == row.options.end() ? std::string(kNone) : found->second;
+      return found == row.options.end() ? default_text(name) : found->second;
     };
     for (const std::string& name : names)
       if (value_of(before, name) != value_of(now, name))

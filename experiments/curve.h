@@ -5,10 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "coder/codec.h"
+#include "experiments/cell_options.h"
 #include "mesh/progress.h"
-#include "param/parameterize.h"
-#include "remesh/remesh.h"
 
 namespace gsp {
 
@@ -43,6 +41,8 @@ struct CurveOptions {
   std::vector<Method> methods = {Method::Gsp, Method::MapsSmoothed};
   RemeshOptions remesh;
   EncodeOptions encode;
+  /// How each size is coded. Streams of their own for each size cost about ten times the coding of the embedded one each.
+  std::vector<StreamMode> modes = {StreamMode::Embedded};
   std::vector<std::size_t> budgets;  ///< bytes; empty: 256, 512, 1024, ... up to the whole stream
   std::size_t samples = 200000;      ///< per direction and point; decimate-draco, which has many points, takes half
   std::uint64_t seed = 1;
@@ -51,8 +51,8 @@ struct CurveOptions {
   std::function<void(const CurveRun&)> on_progress;
 };
 
-/// The main job on one surface: parameterize by every method on one base complex, remesh, encode once, decode at each
-/// budget, measure against the input; then the anchors. Budgets that do not hold a stream's header are left out.
+/// The main job on one surface: parameterize by every method on one base complex, remesh, encode by every mode, decode at
+/// each budget, measure against the input; then the anchors. Budgets that do not hold a stream's header are left out.
 /// Throws what its stages throw.
 CurveRun rate_distortion_curve(const Mesh& mesh, const std::string& model, const CurveOptions& options,
                                Progress& progress);

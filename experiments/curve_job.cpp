@@ -58,7 +58,8 @@ class Job {
       run = rate_distortion_curve(mesh, model, options, progress);
     });
     finished_.insert(finished_.end(), run.points.begin(), run.points.end());
-    const CurveSummary numbers = summarize(model, by_method(run.points));
+    std::vector<CurveSeries> curves = curves_of(run.points);
+    const CurveSummary numbers = summarize(model, curves);
     summary.model = model;
     summary.methods = numbers.methods;
     if (!run.omega.empty())
@@ -66,8 +67,8 @@ class Job {
         write_omega_csv(folder_ + "/" + model + "-omega.csv", run.omega);
         made(model + "-omega.csv");
       });
-    draw(summary, model, {{model, run.points}});
-    if (!run.points.empty()) panels_.emplace_back(model, std::move(run.points));
+    draw(summary, model, {{model, curves}});
+    if (!curves.empty()) panels_.emplace_back(model, std::move(curves));
     result_.models.push_back(std::move(summary));
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     progress.note(fmt::format("{:.1f} s", seconds.count()));

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include "experiments/gnuplot.h"
-#include "experiments/summary.h"
 
 namespace gsp {
 
@@ -34,20 +34,20 @@ constexpr int kPanelWidth = 640, kKeyWidth = 340;
 
 // Bytes from the first point to the last that any progressive method has: the anchors' tails would only shrink the
 // rest.
-std::pair<double, double> byte_range(const std::vector<CurvePoint>& points) {
+std::pair<double, double> byte_range(const std::vector<CurveSeries>& curves) {
   double low = 256.0, high = 1024.0;
-  for (const CurvePoint& p : points) {
-    low = std::min(low, static_cast<double>(p.bytes));
-    if (p.remesh_error > 0.0) high = std::max(high, static_cast<double>(p.bytes));
-  }
+  for (const CurveSeries& curve : curves)
+    for (const CurvePoint& p : curve.points) {
+      low = std::min(low, static_cast<double>(p.bytes));
+      if (p.remesh_error > 0.0) high = std::max(high, static_cast<double>(p.bytes));
+    }
   return {low, high};
 }
 
 // A little above the highest ceiling: Draco, which has none, would push everything else down.
-std::string highest_shown(const std::vector<CurvePoint>& points) {
+std::string highest_shown(const std::vector<CurveSeries>& curves) {
   double ceiling = 0.0;
-  for (const CurvePoint& p : points)
-    if (p.remesh_error > 0.0) ceiling = std::max(ceiling, -20.0 * std::log10(p.remesh_error));
+  for (const CurveSeries& curve : curves) ceiling = std::max(ceiling, ceiling_db(curve.points));
   return ceiling > 0.0 ? fmt::format("{:.1f}", ceiling + 3.0) : "*";
 }
 
@@ -63,10 +63,9 @@ std::string byte_tics(double low, double high) {
   return tics;
 }
 
-std::string data_name(std::size_t panel, std::size_t method) { return fmt::format("$d{}_{}", panel, method); }
+std::string data_name(std::size_t panel, std::size_t curve) { return fmt::format("$d{}_{}", panel, curve); }
 
-std::string panel_data(const std::vector<CurvePoint>& points, std::size_t panel) {
-  const std::vector<CurveSeries> curves = by_method(points);
+std::string panel_data(const std::vector<CurveSeries>& curves, std::size_t panel) {
   std::string script;
   for (std::size_t m = 0; m < curves.size(); ++m) {
     script += data_name(panel, m) + " << EOD\n";
@@ -80,7 +79,7 @@ std::string panel_data(const std::vector<CurvePoint>& points, std::size_t panel)
 std::vector<std::string> curve_names(const std::vector<PlotPanel>& panels) {
   std::vector<std::string> names;
   for (const PlotPanel& panel : panels)
-    for (const CurveSeries& curve : by_method(panel.second))
+    for (const CurveSeries& curve : panel.second)
       if (std::find(names.begin(), names.end(), curve.name) == names.end()) names.push_back(curve.name);
   return names;
 }
@@ -110,20 +109,20 @@ class Looks {
 };
 
 std::string panel_commands(const PlotPanel& panel, std::size_t index, const Looks& looks) {
-  const auto& [model, points] = panel;
-  const std::vector<CurveSeries> curves = by_method(points);
+  const auto& [model, curves] = panel;
   std::string lines;
   for (std::size_t m = 0; m < curves.size(); ++m)
     lines += fmt::format("{}{} using 1:2 {} title {}", m ? ", \\\n     " : "", data_name(index, m),
                          looks.curve(curves[m].name), gnuplot_quoted(curves[m].name));
   const bool few = curves.size() <= kFewCurves;
-  for (const CurveSeries& curve : curves)
-    if (const double ceiling = ceiling_db(curve.points); ceiling > 0.0)
+  std::set<double> ceilings;
+  for (const CurveSeries& curve : curves)  // those coded from one remesh share theirs
+    if (const double ceiling = ceiling_db(curve.points); ceiling > 0.0 && ceilings.insert(ceiling).second)
       lines += fmt::format(", \\\n     {:.4f} {} {}", ceiling, looks.ceiling(curve.name),
                            few ? "title " + gnuplot_quoted(curve.name + " remesh (ceiling)") : "notitle");
-  const auto [low, high] = byte_range(points);
+  const auto [low, high] = byte_range(curves);
   return fmt::format("set title {} noenhanced\nset xtics ({})\nset xrange [{:.0f}:{:.0f}]\nset yrange [*:{}]\nplot {}\n",
-                     gnuplot_quoted(model), byte_tics(low, high), low, high, highest_shown(points), lines);
+                     gnuplot_quoted(model), byte_tics(low, high), low, high, highest_shown(curves), lines);
 }
 
 // Panels side by side and one key for all of them at the right.
@@ -134,7 +133,7 @@ std::string panels_with_key(const std::vector<PlotPanel>& panels, const Looks& l
   for (std::size_t i = 0; i < panels.size(); ++i) {
     commands += fmt::format("set origin {:.5f},0\nset size {:.5f},1\n{}", i * kPanelWidth / width, kPanelWidth / width,
                             panel_commands(panels[i], i, looks));
-    for (const CurveSeries& curve : by_method(panels[i].second)) ceilings = ceilings || ceiling_db(curve.points) > 0.0;
+    for (const CurveSeries& curve : panels[i].second) ceilings = ceilings || ceiling_db(curve.points) > 0.0;
   }
   std::string entries;
   for (const std::string& name : looks.names())

@@ -132,11 +132,7 @@ class Runner {
     if (!succeeded(cell, StageKind::Parameterize)) return;
     if (!run_stage(cell, StageKind::Remesh, [&](StageResult& result) { remesh_stage(cell, result); })) return;
     if (!run_stage(cell, StageKind::Encode, [&](StageResult& result) { encode_stage(cell, result); })) return;
-    run_stage(cell, StageKind::Measure, [&](StageResult& result) {
-      const std::string bytes = read_file(artefact(cell, StageKind::Encode, "stream"));
-      result.points = decoded_curve({bytes.begin(), bytes.end()}, cell.options.budgets, meter(cell),
-                                    cell.options.samples, progress_);
-    });
+    run_stage(cell, StageKind::Measure, [&](StageResult& result) { measure_stage(cell, result); });
   }
 
   void remesh_stage(const PlannedCell& cell, StageResult& result) {
@@ -164,6 +160,22 @@ class Runner {
                       {"connectivity_bytes", static_cast<double>(parts.connectivity_bytes)}};
     result.artefacts["stream"] =
         keep_artefact(store_, ".pgc", [&](const std::string& path) { write_bytes(path, stream); });
+  }
+
+  void measure_stage(const PlannedCell& cell, StageResult& result) {
+    const CellOptions& options = cell.options;
+    const std::string bytes = read_file(artefact(cell, StageKind::Encode, "stream"));
+    const Bytes embedded(bytes.begin(), bytes.end());
+    if (options.mode == StreamMode::Embedded) {
+      result.points = decoded_curve(embedded, options.budgets, meter(cell), options.samples, progress_);
+      return;
+    }
+    const SemiregularMesh mesh = read_semiregular(artefact(cell, StageKind::Remesh, "remesh"));
+    const std::vector<Bytes> streams = fixed_streams(mesh, options.encode, embedded, options.budgets, progress_);
+    result.points = decoded_streams(streams, meter(cell), options.samples, progress_);
+    for (const Bytes& stream : streams)
+      result.artefacts[fixed_stream_role(stream.size())] =
+          keep_artefact(store_, ".pgc", [&](const std::string& path) { write_bytes(path, stream); });
   }
 
   const Meter& meter(const PlannedCell& cell) {

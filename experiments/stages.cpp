@@ -7,6 +7,25 @@
 
 namespace gsp {
 
+namespace {
+
+constexpr const char* kDecodeAndMeasure = "decode and measure";
+
+// Does work of one thread for each of `count` things side by side, as many at a time as there are threads.
+template <class Work>
+void side_by_side(std::size_t count, const char* stage, Progress& progress, const Work& work) {
+  const std::size_t threads = static_cast<std::size_t>(thread_count());
+  for (std::size_t first = 0; first < count; first += threads) {
+    progress.report(stage, static_cast<double>(first) / static_cast<double>(count));
+    parallel_for(std::min(threads, count - first), 1, [&](std::size_t begin, std::size_t end) {
+      Progress silent;
+      for (std::size_t i = first + begin; i < first + end; ++i) work(i, silent);
+    });
+  }
+}
+
+}  // namespace
+
 MeasuredRemesh measured_remesh(const Parameterization& map, const RemeshOptions& options, const Meter& meter,
                                std::size_t samples, Progress& progress) {
   MeasuredRemesh result;
@@ -23,16 +42,28 @@ std::vector<CurvePoint> decoded_curve(const Bytes& stream, const std::vector<std
                                       std::size_t samples, Progress& progress) {
   const std::vector<std::size_t> budgets = byte_budgets(wanted, header_bytes(stream), stream.size());
   std::vector<CurvePoint> points(budgets.size());
-  // Decoding has one thread, so prefixes are decoded side by side, as many at a time as there are threads.
-  const std::size_t threads = static_cast<std::size_t>(thread_count());
-  for (std::size_t first = 0; first < budgets.size(); first += threads) {
-    progress.report("decode and measure", static_cast<double>(first) / static_cast<double>(budgets.size()));
-    parallel_for(std::min(threads, budgets.size() - first), 1, [&](std::size_t begin, std::size_t end) {
-      Progress silent;
-      for (std::size_t i = first + begin; i < first + end; ++i)
-        points[i] = meter.measure(decode(stream, budgets[i]).mesh(), budgets[i], samples, silent);
-    });
-  }
+  side_by_side(budgets.size(), kDecodeAndMeasure, progress, [&](std::size_t i, Progress& silent) {
+    points[i] = meter.measure(decode(stream, budgets[i]).mesh(), budgets[i], samples, silent);
+  });
+  return points;
+}
+
+std::vector<Bytes> fixed_streams(const SemiregularMesh& mesh, const EncodeOptions& options, const Bytes& embedded,
+                                 const std::vector<std::size_t>& wanted, Progress& progress) {
+  const std::vector<std::size_t> budgets = byte_budgets(wanted, header_bytes(embedded), embedded.size());
+  std::vector<Bytes> streams(budgets.size());
+  side_by_side(budgets.size(), "encode each size", progress, [&](std::size_t i, Progress& silent) {
+    streams[i] = encode_fixed(mesh, options, budgets[i], silent);
+  });
+  return streams;
+}
+
+std::vector<CurvePoint> decoded_streams(const std::vector<Bytes>& streams, const Meter& meter, std::size_t samples,
+                                        Progress& progress) {
+  std::vector<CurvePoint> points(streams.size());
+  side_by_side(streams.size(), kDecodeAndMeasure, progress, [&](std::size_t i, Progress& silent) {
+    points[i] = meter.measure(decode(streams[i], streams[i].size()).mesh(), streams[i].size(), samples, silent);
+  });
   return points;
 }
 
@@ -63,7 +94,7 @@ void describe(CurvePoint& row, const CellOptions& options, const RemeshShape& sh
   row.base_faces = shape.base_faces;
   row.level = shape.level;
   row.wavelet = wavelet_name(options.encode.wavelet);
-  row.coder = "gsp";
+  row.coder = coder_name(options.mode);
   row.remesh_error = shape.remesh_error;
 }
 

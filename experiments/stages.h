@@ -32,6 +32,15 @@ MeasuredRemesh measured_remesh(const Parameterization& map, const RemeshOptions&
 std::vector<CurvePoint> decoded_curve(const Bytes& stream, const std::vector<std::size_t>& budgets, const Meter& meter,
                                       std::size_t samples, Progress& progress);
 
+/// A stream of its own for every budget that `decoded_curve` would decode of `embedded`, the remesh's embedded stream of the
+/// same options; made side by side. Throws what `encode_fixed` throws.
+std::vector<Bytes> fixed_streams(const SemiregularMesh& mesh, const EncodeOptions& options, const Bytes& embedded,
+                                 const std::vector<std::size_t>& budgets, Progress& progress);
+
+/// A row for each stream, the whole of it decoded. Throws what `decode` throws.
+std::vector<CurvePoint> decoded_streams(const std::vector<Bytes>& streams, const Meter& meter, std::size_t samples,
+                                        Progress& progress);
+
 /// Rows of an anchor, "draco" or "decimate-draco", whose many points take half of the samples.
 std::vector<CurvePoint> anchor_curve(const std::string& method, const Meter& meter, std::size_t samples,
                                      Progress& progress);

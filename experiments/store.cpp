@@ -76,6 +76,8 @@ const char* status_name(CellStatus status) {
   return "failed";
 }
 
+std::string fixed_stream_role(std::size_t bytes) { return "stream of " + std::to_string(bytes) + " bytes"; }
+
 const StageResult* StoredCell::stage(StageKind kind) const {
   const auto found = std::find_if(stages.begin(), stages.end(), [&](const StageResult& s) { return s.kind == kind; });
   return found == stages.end() ? nullptr : &*found;
@@ -91,6 +93,10 @@ std::string StoredCell::artefact(const std::string& role) const {
   for (const StageResult& result : stages)
     if (const auto found = result.artefacts.find(role); found != result.artefacts.end()) return found->second;
   return {};
+}
+
+std::string StoredCell::stream_file(std::size_t bytes) const {
+  return artefact(options.mode == StreamMode::Fixed ? fixed_stream_role(bytes) : "stream");
 }
 
 std::vector<CurvePoint> StoredCell::points() const {

@@ -30,7 +30,7 @@ struct StageResult {
   /// Encode: stream_bytes, header_bytes, connectivity_bytes.
   std::map<std::string, double> numbers;
   /// Files by role, relative to the store's folder: "map" (*.param.ply), "omega" (*.csv, figure 5d), "remesh"
-  /// (*.sr.ply), "stream" (*.pgc).
+  /// (*.sr.ply), "stream" (*.pgc, the embedded one), `fixed_stream_role` of each size (*.pgc, of StreamMode::Fixed).
   std::map<std::string, std::string> artefacts;
   std::vector<CurvePoint>
       points;                ///< of Measure, by ascending bytes; only what a `Meter` fills in, and the coder of anchors
@@ -40,6 +40,9 @@ struct StageResult {
 
   bool failed() const { return !cause.empty(); }
 };
+
+/// "stream of 1024 bytes".
+std::string fixed_stream_role(std::size_t bytes);
 
 /// One surface of a recipe.
 struct StoredModel {
@@ -86,6 +89,8 @@ struct StoredCell {
   std::optional<double> number(const std::string& name) const;
   /// Path of an artefact, with the store's folder; empty where there is none.
   std::string artefact(const std::string& role) const;
+  /// The file of which a row decodes the first `bytes` bytes: of its own for StreamMode::Fixed, else the embedded stream.
+  std::string stream_file(std::size_t bytes) const;
   /// The rows of curve.csv: points with the cell's columns filled in. Empty unless done.
   std::vector<CurvePoint> points() const;
 };

@@ -67,6 +67,28 @@ void print_model(std::ostream& out, const CurveSummary& summary) {
     print_bd(out, summary.methods.front().method, summary.methods[i]);
 }
 
+void print_definitions(std::ostream& out, const std::string& first, bool fixed) {
+  fmt::print(
+      out,
+      "PSNR = 20 log10(bounding-box diagonal of the input / RMS distance), RMS the larger of both directions.\n"
+      "positions: what the remesh's vertices are; the paper's are sampled. ceiling: PSNR of the uncoded remesh.\n"
+      "50 dB ...: bytes at which the curve reaches it.\n"
+      "gain: PSNR of {} less that of the row's method, mean over log-bytes from {:.0f} bytes up to where the first\n"
+      "of the two curves is within {:.0f} dB of its own ceiling. ratio: the row's bytes over those of {} at {:.0f} "
+      "dB.\n"
+      "Curves are linear in log-bytes between their points; decimate-draco is the upper envelope of its points.\n"
+      "BD-rate, BD-PSNR: mean bytes of {} at equal PSNR less the other's, and mean PSNR at equal bytes, by PCHIP on "
+      "the\n"
+      "logarithm of bytes, where both curves are known and under their ceilings less {:.0f} dB; shared: of the range "
+      "that\n"
+      "either covers.\n",
+      first, kCompareFromBytes, kCeilingMarginDb, first, kRatioLevelDb, first, kCeilingMarginDb);
+  if (fixed)
+    fmt::print(out,
+               "mode=fixed: a stream for each size alone (gsp encode --mode fixed); the other curves are prefixes of one "
+               "stream.\n");
+}
+
 void compare_bd(MethodSummary& m, const std::vector<CurvePoint>& first, const std::vector<CurvePoint>& points) {
   try {
     m.bd = bd_compare(bd_curve(points), bd_curve(first), {.ceiling_margin_db = kCeilingMarginDb});
@@ -94,12 +116,16 @@ BdCurve bd_curve(const std::vector<CurvePoint>& points) {
   return curve;
 }
 
-std::vector<CurveSeries> by_method(const std::vector<CurvePoint>& points) {
+std::string curve_name(const CurvePoint& point) {
+  return point.method + (point.coder == coder_name(StreamMode::Fixed) ? " mode=fixed" : "");
+}
+
+std::vector<CurveSeries> curves_of(const std::vector<CurvePoint>& points) {
   std::vector<CurveSeries> curves;
   for (const CurvePoint& point : points) {
-    auto curve =
-        std::find_if(curves.begin(), curves.end(), [&](const CurveSeries& c) { return c.name == point.method; });
-    if (curve == curves.end()) curve = curves.insert(curves.end(), CurveSeries{point.method, {}});
+    const std::string name = curve_name(point);
+    auto curve = std::find_if(curves.begin(), curves.end(), [&](const CurveSeries& c) { return c.name == name; });
+    if (curve == curves.end()) curve = curves.insert(curves.end(), CurveSeries{name, {}});
     curve->points.push_back(point);
   }
   return curves;
@@ -120,6 +146,7 @@ CurveSummary summarize(const std::string& model, const std::vector<CurveSeries>&
     m.base_faces = points.front().base_faces;
     m.level = points.front().level;
     m.positions = further_option(points.front().options, "positions");
+    if (m.base_vertices > 0) m.coder = points.front().coder;
     for (double level : kTableLevelsDb) m.bytes_at.push_back(bytes_at(curve, level));
     if (summary.methods.size() == 1) {
       first = curve;
@@ -151,10 +178,13 @@ MeanGain mean_gain_over(const std::vector<CurveSummary>& summaries, const std::s
 void print_summaries(std::ostream& out, const std::vector<CurveSummary>& summaries) {
   std::vector<std::string> others;
   std::string first;
+  bool fixed = false;
   for (const CurveSummary& summary : summaries) {
     print_model(out, summary);
-    for (const MethodSummary& m : summary.methods)
+    for (const MethodSummary& m : summary.methods) {
       if (std::find(others.begin(), others.end(), m.method) == others.end()) others.push_back(m.method);
+      fixed = fixed || m.coder == coder_name(StreamMode::Fixed);
+    }
     if (first.empty() && !summary.methods.empty()) first = summary.methods.front().method;
   }
   if (first.empty()) return;
@@ -170,21 +200,7 @@ void print_summaries(std::ostream& out, const std::vector<CurveSummary>& summari
                  summaries.size());
     out << '\n';
   }
-  fmt::print(
-      out,
-      "PSNR = 20 log10(bounding-box diagonal of the input / RMS distance), RMS the larger of both directions.\n"
-      "positions: what the remesh's vertices are; the paper's are sampled. ceiling: PSNR of the uncoded remesh.\n"
-      "50 dB ...: bytes at which the curve reaches it.\n"
-      "gain: PSNR of {} less that of the row's method, mean over log-bytes from {:.0f} bytes up to where the first\n"
-      "of the two curves is within {:.0f} dB of its own ceiling. ratio: the row's bytes over those of {} at {:.0f} "
-      "dB.\n"
-      "Curves are linear in log-bytes between their points; decimate-draco is the upper envelope of its points.\n"
-      "BD-rate, BD-PSNR: mean bytes of {} at equal PSNR less the other's, and mean PSNR at equal bytes, by PCHIP on "
-      "the\n"
-      "logarithm of bytes, where both curves are known and under their ceilings less {:.0f} dB; shared: of the range "
-      "that\n"
-      "either covers.\n",
-      first, kCompareFromBytes, kCeilingMarginDb, first, kRatioLevelDb, first, kCeilingMarginDb);
+  print_definitions(out, first, fixed);
 }
 
 }  // namespace gsp

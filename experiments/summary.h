@@ -29,6 +29,7 @@ struct MethodSummary {
   std::string method;  ///< name of the series
   int base_vertices = 0, base_faces = 0, level = 0;
   std::string positions;                        ///< of the remesh: fitted, sampled or closest; empty for the anchors
+  std::string coder;                            ///< `coder_name` of the mode; empty for the anchors
   double ceiling_db = 0.0;                      ///< -20·log10(remeshing error); 0 for the anchors, which have none
   std::vector<std::optional<double>> bytes_at;  ///< at kTableLevelsDb
   std::optional<Gain> gain;                     ///< of the first method over this one; empty for the first itself
@@ -55,8 +56,11 @@ double ceiling_db(const std::vector<CurvePoint>& points);
 /// The points as `bd_compare` takes them, with the remesh's ceiling where there is one.
 BdCurve bd_curve(const std::vector<CurvePoint>& points);
 
-/// One series a method, in the order of their first points.
-std::vector<CurveSeries> by_method(const std::vector<CurvePoint>& points);
+/// What the curve of a point is called: its method, with " mode=fixed" for streams of that mode, as labels of a sweep have it.
+std::string curve_name(const CurvePoint& point);
+
+/// One series a name, in the order of their first points.
+std::vector<CurveSeries> curves_of(const std::vector<CurvePoint>& points);
 
 /// Summary of the curves of one model.
 CurveSummary summarize(const std::string& model, const std::vector<CurveSeries>& curves);

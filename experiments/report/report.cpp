@@ -126,6 +126,7 @@ class Report {
     const bool anchor = is_anchor(cell.options.method);
     return {{"label", cell.label},
             {"method", cell.options.method},
+            {"mode", stream_mode_name(cell.options.mode)},
             {"ceiling_db", optional(cell.number("ceiling_db"))},
             {"base_vertices", optional(cell.number("base_vertices"))},
             {"level", optional(cell.number("level"))},
@@ -140,7 +141,7 @@ class Report {
   }
 
   Json model_json(const StoredModel& model) const {
-    const CurveSummary summary = summarize(model.name, by_method(run_.labelled_points(model.name)));
+    const CurveSummary summary = summarize(model.name, run_.curves(model.name));
     Json curves = Json::array();
     for (const StoredCell& cell : run_.cells) {
       if (cell.model != model.name) continue;

@@ -26,17 +26,18 @@ StageResult remesh_stage(const CurvePoint& point) {
   return stage;
 }
 
-/// A cell of one method of a curve.csv, from its first row.
+/// A cell of one curve of a curve.csv, from its first row.
 StoredCell first_of(const CurvePoint& point, const fs::path& folder) {
   StoredCell cell;
   cell.model = point.model;
-  cell.label = point.method;
+  cell.label = curve_name(point);
   cell.options.method = point.method;
   cell.options.parameterize.gamma = point.gamma;
   cell.options.parameterize.mu = point.mu;
   const std::string positions = further_option(point.options, "positions");
   for (Positions p : kPositions)
     if (positions == positions_name(p)) cell.options.remesh.positions = p;
+  if (point.coder == coder_name(StreamMode::Fixed)) cell.options.mode = StreamMode::Fixed;
   cell.status = CellStatus::Done;
   if (point.remesh_error > 0.0) {
     StageResult map;
@@ -56,11 +57,12 @@ Run read_curve_folder(const fs::path& folder) {
   Run run;
   run.name = fs::weakly_canonical(folder).filename().string();
   for (CurvePoint& point : read_curve_csv((folder / "curve.csv").string())) {
+    const std::string label = curve_name(point);
     if (!run.model(point.model)) {
       StoredModel& model = run.models.emplace_back();
       model.name = point.model;
     }
-    const auto same = [&](const StoredCell& c) { return c.model == point.model && c.label == point.method; };
+    const auto same = [&](const StoredCell& c) { return c.model == point.model && c.label == label; };
     auto cell = std::find_if(run.cells.begin(), run.cells.end(), same);
     if (cell == run.cells.end()) cell = run.cells.insert(run.cells.end(), first_of(point, folder));
     cell->stages.back().points.push_back(std::move(point));
@@ -113,16 +115,14 @@ std::vector<std::string> Run::labels() const {
   return labels;
 }
 
-std::vector<CurvePoint> Run::labelled_points(const std::string& wanted) const {
-  std::vector<CurvePoint> points;
+std::vector<CurveSeries> Run::curves(const std::string& wanted) const {
+  std::vector<CurveSeries> curves;
   for (const StoredCell& cell : cells) {
     if (cell.model != wanted) continue;
-    for (CurvePoint& point : cell.points()) {
-      point.method = cell.label;
-      points.push_back(std::move(point));
-    }
+    if (std::vector<CurvePoint> points = cell.points(); !points.empty())
+      curves.push_back({cell.label, std::move(points)});
   }
-  return points;
+  return curves;
 }
 
 Run read_run(const std::string& folder, const std::string& recipe) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "experiments/store.h"
+#include "experiments/summary.h"
 
 namespace gsp {
 
@@ -17,8 +18,8 @@ struct Run {
   const StoredModel* model(const std::string& name) const;
   /// Labels of the cells in the order of their first ones.
   std::vector<std::string> labels() const;
-  /// The points of a model's cells, their method replaced by the cell's label, which tells cells of one method apart.
-  std::vector<CurvePoint> labelled_points(const std::string& model) const;
+  /// The curves of a model's cells that are done, by their labels.
+  std::vector<CurveSeries> curves(const std::string& model) const;
 };
 
 /// Reads a store of `gsp sweep` (a recipe of it; empty stands for the latest), or the folder that `gsp curve` made,

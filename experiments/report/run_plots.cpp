@@ -139,12 +139,12 @@ std::string heat_rows(const Run& run, const std::string& method, const Scale& x,
 void curve_figures(const Run& run, const std::string& folder, std::vector<RunFigure>& figures) {
   std::vector<PlotPanel> panels;
   for (const StoredModel& model : run.models) {
-    std::vector<CurvePoint> points = run.labelled_points(model.name);
-    if (points.empty()) continue;
+    std::vector<CurveSeries> curves = run.curves(model.name);
+    if (curves.empty()) continue;
     const std::string name = "curve-" + model.name;
-    add_figure(figures, folder, name, plot_script(name, {{model.name, points}}),
+    add_figure(figures, folder, name, plot_script(name, {{model.name, curves}}),
                "Rate-distortion curves of " + model.name + ", ceilings dashed (the paper's figure 7).");
-    panels.emplace_back(model.name, std::move(points));
+    panels.emplace_back(model.name, std::move(curves));
   }
   if (panels.size() < 2 || panels.size() > kMostPanels) return;
   add_figure(figures, folder, "curves", plot_script("curves", panels),

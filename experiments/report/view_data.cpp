@@ -121,6 +121,11 @@ std::vector<CurvePoint> shown_points(const StoredCell& cell) {
   return shown;
 }
 
+SemiregularMesh decoded_point(const StoredCell& cell, const CurvePoint& point) {
+  const std::string file = read_file(cell.stream_file(point.bytes));
+  return decode({file.begin(), file.end()}, point.bytes);
+}
+
 std::string positions_text(const std::vector<Vec3>& positions, const Eigen::AlignedBox3d& box) {
   constexpr double kSteps = 65535.0;
   std::vector<std::uint16_t> numbers;
@@ -154,17 +159,15 @@ Json size_json(const CurvePoint& point, const Mesh& decoded, const SurfaceTree& 
 std::string view_json(const StoredModel& model, const StoredCell& cell, Progress& progress) {
   const Mesh input = read_mesh(model.path);
   const SurfaceTree tree(input);
-  const std::string file = read_file(cell.artefact("stream"));
-  const Bytes stream(file.begin(), file.end());
   const std::vector<CurvePoint> points = shown_points(cell);
 
-  const SemiregularMesh whole = decode(stream, stream.size());
+  const SemiregularMesh whole = decoded_point(cell, points.back());
   const int level = view_level(whole);
   std::vector<Mesh> decoded;
   Eigen::AlignedBox3d box;
   for (const CurvePoint& point : points) {
     progress.report("decode for the 3D view", static_cast<double>(decoded.size()) / static_cast<double>(points.size()));
-    decoded.push_back(at_level(decode(stream, point.bytes), level).mesh());
+    decoded.push_back(at_level(decoded_point(cell, point), level).mesh());
     for (const Vec3& p : decoded.back().positions) box.extend(p);
   }
 

@@ -256,14 +256,17 @@ TEST_CASE("curve draws what works, names what fails, and ends with status 1 for 
   const std::string good = write_bumpy(folder), bad = folder.file("bad.off");
   std::ofstream(bad) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 nan\n3 0 1 2\n";
   const std::string to = output.file("curves");
-  const Ran ran = gsp_run({"curve", bad, good, "-o", to, "--samples", "5000", "--base-vertices", "30", "--json"});
+  const Ran ran = gsp_run({"curve", bad, good, "-o", to, "--samples", "5000", "--base-vertices", "30", "--modes",
+                           "embedded,fixed", "--json"});
   CAPTURE(ran.err);
   CHECK(ran.status == 1);
   const json report = json::parse(ran.out);
   CHECK(report["models"][0]["error"]["cause"].is_string());
   CHECK_FALSE(report["models"][1].contains("error"));
   CHECK(report["models"][1]["methods"][0]["method"] == "gsp");
-  CHECK(report["models"][1]["methods"].size() == 4);
+  CHECK(report["models"][1]["methods"].size() == 2 * 2 + 2);
+  CHECK(report["models"][1]["methods"][1]["method"] == "gsp mode=fixed");
+  CHECK(report["models"][1]["methods"][1]["coder"] == "gsp-fixed");
   for (const char* name : {"curve.csv", "bumpy.png", "bumpy.svg", "bumpy-omega.csv"})
     CHECK(size_of(to + "/" + name) > 200);
   for (const auto& file : report["files"]) CHECK(std::filesystem::exists(file.get<std::string>()));

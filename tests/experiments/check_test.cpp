@@ -86,6 +86,16 @@ TEST_CASE("improvements and new rows are told and pass; what may not change fail
   CHECK(check(sample_run(), more, {}).moved.size() == 1);
 }
 
+TEST_CASE("an option that is newer than the baseline had its default then") {
+  CHECK(after([](BaselineRow& row) { row.options["mode"] = "embedded"; }).moved.empty());
+  const CheckResult other = after([](BaselineRow& row) { row.options["mode"] = "fixed"; });
+  CHECK_FALSE(other.passed());
+  REQUIRE(other.moved.size() == 1);
+  CHECK(other.moved[0].what == "option mode");
+  CHECK(other.moved[0].before == "embedded");
+  CHECK_FALSE(after([](BaselineRow& row) { row.options["no such option"] = "1"; }).passed());
+}
+
 TEST_CASE("missing rows, new failures and numbers that are no more fail the check") {
   Baseline run = sample_run();
   run.rows.pop_back();

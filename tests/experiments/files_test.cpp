@@ -93,7 +93,7 @@ TEST_CASE("a plot draws strange names, and names the files it made") {
   const std::vector<CurvePoint> points = {sample_point(model, "gsp", 256, 40), sample_point(model, "gsp", 4096, 60),
                                           sample_point(model, "draco", 4096, 30),
                                           sample_point(model, "draco", 90000, 70)};
-  const auto files = plot(folder.path().string(), "figure", {{model, points}, {"second", points}});
+  const auto files = plot(folder.path().string(), "figure", {{model, curves_of(points)}, {"second", curves_of(points)}});
   REQUIRE(files.size() == 3);
   for (const std::string& file : files) CHECK(std::filesystem::file_size(folder.file(file)) > 500);
   const std::string svg = read_file(folder.file("figure.svg"));

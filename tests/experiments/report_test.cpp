@@ -158,6 +158,22 @@ TEST_CASE("a report of a curve folder is one page that needs nothing else") {
   CHECK_THROWS_AS(read_run(folder.file("nothing"), {}), Error);
 }
 
+TEST_CASE("the two modes of a method in a curve folder are two curves of the report") {
+  TemporaryFolder folder;
+  std::vector<CurvePoint> points = straight_curve("horse", "gsp", 1.0);
+  for (CurvePoint point : straight_curve("horse", "gsp", 0.9)) {
+    point.coder = coder_name(StreamMode::Fixed);
+    points.push_back(point);
+  }
+  write_curve_csv(folder.file("curve.csv"), points);
+  const Run run = read_run(folder.path().string(), {});
+  CHECK(run.labels() == std::vector<std::string>{"gsp", "gsp mode=fixed"});
+  for (const StoredCell& cell : run.cells)
+    for (const CurvePoint& point : cell.points())
+      CHECK(point.coder == coder_name(cell.options.mode));
+  CHECK(findings(run).reference == "gsp");
+}
+
 TEST_CASE("a page holds its parts and the data once") {
   const std::string page = report_page("{\"name\": \"@@style.css@@\"}");
   CHECK(contains(page, "REVISION"));

@@ -30,7 +30,7 @@ TEST_CASE("a summary gives back the gain, the range and the ratio that the curve
   add_method(points, "gsp", 43.0, 80.0);
   add_method(points, "maps", 40.0, 80.0);
   add_method(points, "draco", 35.0, 0.0);
-  const CurveSummary summary = summarize("model", by_method(points));
+  const CurveSummary summary = summarize("model", curves_of(points));
   REQUIRE(summary.methods.size() == 3);
   const MethodSummary& gsp = summary.methods[0];
   CHECK(gsp.ceiling_db == Approx(80.0));
@@ -59,11 +59,28 @@ TEST_CASE("a summary gives back the gain, the range and the ratio that the curve
   CHECK(draco.positions.empty());
 }
 
+TEST_CASE("streams made for one size alone are a curve of their own beside the embedded one of their method") {
+  std::vector<CurvePoint> points, fixed;
+  add_method(points, "gsp", 43.0, 80.0);
+  add_method(fixed, "gsp", 43.5, 80.0);
+  for (CurvePoint& point : fixed) point.coder = coder_name(StreamMode::Fixed);
+  points.insert(points.end(), fixed.begin(), fixed.end());
+  const CurveSummary summary = summarize("model", curves_of(points));
+  REQUIRE(summary.methods.size() == 2);
+  CHECK(summary.methods[0].method == "gsp");
+  CHECK(summary.methods[1].method == "gsp mode=fixed");
+  REQUIRE(summary.methods[1].gain);
+  CHECK(summary.methods[1].gain->mean_db == Approx(-0.5));
+  std::ostringstream out;
+  print_summaries(out, {summary});
+  CHECK(out.str().find("mode=fixed: ") != std::string::npos);
+}
+
 TEST_CASE("curves that lie in different ranges have no gain, and nothing is invented") {
   std::vector<CurvePoint> points;
   add_method(points, "gsp", 75.0, 80.0);  // within 10 dB of the ceiling from the first byte on
   add_method(points, "maps", 40.0, 80.0);
-  const CurveSummary summary = summarize("model", by_method(points));
+  const CurveSummary summary = summarize("model", curves_of(points));
   CHECK_FALSE(summary.methods[1].gain);
   CHECK_FALSE(summary.methods[1].bytes_ratio);
   CHECK_FALSE(summary.methods[1].bd);
@@ -81,7 +98,7 @@ TEST_CASE("the table names failures, means and the definition of its numbers") {
   failed.cause = "non-manifold-edge";
   failed.failure = "an edge has three faces (edge 7)";
   std::ostringstream out;
-  print_summaries(out, {summarize("model", by_method(points)), failed});
+  print_summaries(out, {summarize("model", curves_of(points)), failed});
   const std::string text = out.str();
   for (const char* part : {"FAILED (non-manifold-edge): an edge has three faces (edge 7)", "+3.00 dB",
                            "gsp over maps-smoothed: +3.00 dB (1 of 2 models), BD-rate -34.0% (1 of 2 models)",

@@ -109,6 +109,23 @@ TEST_CASE("a sweep runs every stage once, then finds everything done") {
   CHECK(study.run(kTwoMethods, "copy.off").stages_run == 0);
 }
 
+TEST_CASE("a mode shares the map, the remesh and the embedded stream, and keeps a stream for each of its sizes") {
+  const Study study;
+  const SweepResult result = study.run("method = \"gsp\"\nmode = [\"embedded\", \"fixed\"]\n", "torus.ply");
+  CHECK(result.stages_run == 4 + 1);
+  REQUIRE(result.cells.size() == 2);
+  const StoredCell &embedded = result.cells[0], &fixed = result.cells[1];
+  CHECK(fixed.label == "gsp mode=fixed");
+  CHECK(fixed.artefact("stream") == embedded.artefact("stream"));
+  const std::vector<CurvePoint> rows = fixed.points();
+  REQUIRE(rows.size() == embedded.points().size());
+  for (const CurvePoint& row : rows) {
+    CHECK(row.coder == "gsp-fixed");
+    CHECK(fs::file_size(fixed.stream_file(row.bytes)) == row.bytes);
+    CHECK(embedded.stream_file(row.bytes) == embedded.artefact("stream"));
+  }
+}
+
 TEST_CASE("a surface or a stage that fails is a row with its cause, and the others go on") {
   const Study study;
   std::ofstream(study.file("broken.ply")) << "ply\nformat ascii 1.0\nelement vertex";

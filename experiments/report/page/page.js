@@ -139,6 +139,7 @@
       `diagonal, in units of 1e-5, beside that of the paper's Table 1, ` +
       `which is of sampled positions, so only rows of those compare with it. ` +
       `dB columns: bytes at which the curve reaches it. ` +
+      (run.models.some((m) => m.curves.some((c) => c.mode === 'fixed')) ? `mode=fixed: a stream for each size alone; the other curves are prefixes of one. ` : '') +
       `BD-rate: mean bytes against ${run.reference} at equal PSNR, below the ceilings less 10 dB; more than 0 is worse.`;
   }
 

@@ -1,0 +1,62 @@
+#include "experiments/stages.h"
+
+#include <catch2/catch.hpp>
+
+#include "mesh/shapes.h"
+
+using namespace gsp;
+
+namespace {
+
+Progress silent;
+
+CurveOptions small_run(std::vector<StreamMode> modes) {
+  CurveOptions options;
+  options.parameterize.base_vertices = 12;
+  options.methods = {Method::Gsp};
+  options.modes = std::move(modes);
+  options.budgets = {128, 256, 512, 1024};
+  options.samples = 20000;
+  options.anchors = false;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("streams for one size each keep to it, and decode to no less than the embedded stream's prefixes") {
+  const SemiregularMesh mesh = remesh(parameterize(shapes::bumpy_sphere(4), {.base_vertices = 12}, silent).map, {}, silent);
+  // What is held to be no worse is the distance to the remesh; near the ceiling that to the input may move either way.
+  const Mesh reference = mesh.mesh();
+  const Meter meter(reference, "remesh", 1);
+  constexpr std::size_t kSamples = 20000;
+  const std::vector<std::size_t> budgets = {128, 256, 512, 1024};
+  const Bytes embedded = encode(mesh, {}, silent);
+  const std::vector<CurvePoint> prefixes = decoded_curve(embedded, budgets, meter, kSamples, silent);
+  const std::vector<CurvePoint> fixed =
+      decoded_streams(fixed_streams(mesh, {}, embedded, budgets, silent), meter, kSamples, silent);
+  REQUIRE(prefixes.size() == budgets.size() + 1);
+  REQUIRE(fixed.size() == prefixes.size());
+  double gain = 0.0;
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    CAPTURE(prefixes[i].bytes, prefixes[i].psnr_db, fixed[i].psnr_db);
+    CHECK(fixed[i].bytes <= prefixes[i].bytes);
+    CHECK(fixed[i].faces == prefixes[i].faces);
+    CHECK(fixed[i].psnr_db > prefixes[i].psnr_db - 0.02);
+    gain += fixed[i].psnr_db - prefixes[i].psnr_db;
+  }
+  CHECK(gain > 0.1);
+}
+
+TEST_CASE("a mode's rows do not depend on what else is asked for") {
+  const Mesh input = shapes::torus(24, 16);
+  const auto both =
+      rate_distortion_curve(input, "torus", small_run({StreamMode::Fixed, StreamMode::Embedded}), silent).points;
+  const auto alone = rate_distortion_curve(input, "torus", small_run({StreamMode::Embedded}), silent).points;
+  REQUIRE(both.size() == 2 * alone.size());
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    CHECK(both[i].coder == "gsp-fixed");
+    CHECK(both[alone.size() + i].coder == "gsp");
+    CHECK(both[alone.size() + i].psnr_db == alone[i].psnr_db);
+    CHECK(both[alone.size() + i].bytes == alone[i].bytes);
+  }
+}
