@@ -62,7 +62,7 @@ class BitplaneCoder {
 
   void run() {
     const int top = kPassesPerPlane * std::max(layout_.base_planes, layout_.detail_planes) - 1 + kMaxUrgency;
-    for (int pass = top; pass >= kMaxUrgency; --pass) {
+    for (int pass = top; pass >= layout_.last_pass; --pass) {
       if (pass == top || (pass >= kLastUrgency && pass % (kPlanesPerUrgency * kPassesPerPlane) == 0)) renew_urgency();
       const int base_plane = (pass + kBaseDelay + kPassesPerPlane - 1) / kPassesPerPlane;
       if ((pass + kBaseDelay) % kPassesPerPlane == 0 && base_plane < layout_.base_planes) base_pass(base_plane);
@@ -322,7 +322,7 @@ BitplaneParts encode_bitplanes(const EdgeForest& forest, const BitplaneLayout& l
   EncodingSide side(out);
   BitplaneCoder<EncodingSide> coder(forest, layout, &coefficients, side);
   coder.run();
-  side.finish();
+  if (layout.last_pass == kMaxUrgency) side.finish();
   return side.parts();
 }
 

@@ -43,6 +43,9 @@ struct BitplaneLayout {
   int levels = 0;                                 ///< detail levels of the stream; the forest may end earlier
   std::vector<std::vector<int>> base_neighbours;  ///< #B, adjacent base vertices
   Urgency urgency;
+  /// The last pass that an encoder writes, at least kMaxUrgency, with which every node's last plane ends. A stream that
+  /// ends before is a prefix of the one that does not: its decoder need not know.
+  int last_pass = kMaxUrgency;
 };
 
 /// Bits of the stream by what they say.

@@ -132,21 +132,23 @@ struct Source {
   StreamHeader header;
   Structure structure;
   double diagonal;
-  int precision_bits;
+  int precision_passes;                               ///< kPassesPerPlane to a bit
   std::vector<std::vector<Vec3>> positions, details;  ///< of each level that has details, in coded order
 
   Source(const SemiregularMesh& mesh, const EncodeOptions& options, Progress& progress)
       : header(header_of(mesh, options, connectivity, progress)),
         structure(header, header.level),
         diagonal(bounding_box_diagonal(mesh.mesh())),
-        precision_bits(options.precision_bits),
+        precision_passes(kPassesPerPlane * options.precision_bits),
         positions(mesh.level + 1),
         details(mesh.level) {
     progress.report("wavelet analysis", 0.1);
     positions[mesh.level] = in_coded_order(mesh, header.base).positions;
-    if (precision_bits == EncodeOptions::kAutoPrecision)
-      precision_bits =
-          mesh.level == 0 ? 16 : sufficient_precision(structure.levels.back(), positions[mesh.level], diagonal);
+    if (options.precision_bits == EncodeOptions::kAutoPrecision)
+      precision_passes = mesh.level == 0
+                             ? kPassesPerPlane * 16
+                             : sufficient_precision(structure.levels.back(), positions[mesh.level], diagonal);
+    precision_passes = std::min(precision_passes, kPassesPerPlane * most_precision_bits(mesh.level));
     for (int l = mesh.level - 1; l >= 0; --l) {
       WaveletTransform::Split split = structure.transform.analysis(l, positions[l + 1]);
       positions[l] = std::move(split.coarse);
@@ -162,10 +164,18 @@ struct Source {
       const std::vector<Frame> frames = edge_frames(structure.levels[l], seen[l]);
       for (std::size_t e = 0; e < frames.size(); ++e) local[l][e] = frames[e].transpose() * local[l][e];
     }
-    return quantize(positions[0], local, diagonal, precision_bits, result);
+    return quantize(positions[0], local, diagonal, precision_bits(), result);
+  }
+
+  BitplaneLayout layout(const StreamHeader& result) const {
+    BitplaneLayout layout = structure.layout(result);
+    layout.last_pass = kMaxUrgency + kPassesPerPlane * precision_bits() - precision_passes;
+    return layout;
   }
 
  private:
+  int precision_bits() const { return (precision_passes + kPassesPerPlane - 1) / kPassesPerPlane; }
+
   static StreamHeader header_of(const SemiregularMesh& mesh, const EncodeOptions& options, Bytes& connectivity,
                                 Progress& progress) {
     check(mesh, options);
@@ -213,8 +223,7 @@ Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress
   const BitplaneCoefficients integers = source.quantized(source.positions, header);
   Bytes bytes = write_header(header, source.connectivity);
   const std::size_t header_size = bytes.size();
-  const BitplaneParts bits =
-      encode_bitplanes(source.structure.forest, source.structure.layout(header), integers, bytes);
+  const BitplaneParts bits = encode_bitplanes(source.structure.forest, source.layout(header), integers, bytes);
   if (parts) *parts = {header_size - source.connectivity.size(), source.connectivity.size(), bits};
   progress.report("entropy coding", 1.0);
   return bytes;
@@ -234,8 +243,7 @@ Bytes encode_fixed(const SemiregularMesh& mesh, const EncodeOptions& options, st
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t round = 0;; ++round) {
     progress.report("rate-distortion optimization", 0.8 + 0.2 * round / (std::size(kBitWorths) + 2));
-    const BitplaneState state =
-        encode_bitplanes_until(forest, source.structure.layout(header), integers, bytes - header_size);
+    const BitplaneState state = encode_bitplanes_until(forest, source.layout(header), integers, bytes - header_size);
     std::vector<std::vector<Vec3>> seen;
     const std::vector<Vec3> decoded =
         source.structure.reconstruct(state.known, header.level, header, [&](const auto& p) { seen.push_back(p); });
@@ -248,7 +256,7 @@ Bytes encode_fixed(const SemiregularMesh& mesh, const EncodeOptions& options, st
     integers = rate_distortion_choice(source.quantized(seen, header), state, kBitWorths[round]);
   }
   Bytes stream = write_header(best_header, source.connectivity);
-  encode_bitplanes(forest, source.structure.layout(best_header), best, stream);
+  encode_bitplanes(forest, source.layout(best_header), best, stream);
   if (stream.size() > bytes) stream.resize(bytes);
   progress.report("rate-distortion optimization", 1.0);
   return stream;

@@ -4,17 +4,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coder/bitplane_coder.h"
+
 namespace gsp {
 
 namespace {
 
 constexpr int kLeastBits = 16, kMostBits = 24;
 
-/// A sphere's best piecewise linear approximation over equilateral triangles is 0.064 of the height of an edge's middle
-/// over its parent edge away from it in RMS (remeshes of scanned surfaces: 0.15 to 0.24), the decoded mesh half a step
-/// from the remesh (0.42 to 0.60, bench/README.md). At this many steps to the height the latter is 18 dB under the
-/// former, and adds 0.06 dB to it.
-constexpr double kStepsPerHeight = 64.0;
+/// Scanned surfaces are at least 0.11 of the height of an edge's middle over its parent edge away from their remesh in
+/// RMS (twelve surfaces: 0.11 to 0.22; a sphere: 0.064), and the decoded mesh is about half a step away from it. The
+/// errors add in squares: at this many steps to the height the latter is 19.4 dB under the former and costs 0.05 dB.
+constexpr double kStepsPerHeight = 42.0;
+
+/// kPassesPerPlane·log2(x) rounded down, by comparisons only.
+int passes_of(double x) {
+  static_assert(kPassesPerPlane == 4);
+  const int exponent = std::ilogb(x);
+  const double mantissa = std::ldexp(x, -exponent);
+  int passes = kPassesPerPlane * exponent;
+  for (double quarter : {1.189207115002721, 1.4142135623730951, 1.681792830507429}) passes += mantissa >= quarter;
+  return passes;
+}
 
 /// RMS over the area of the heights, along the normals, of edges' middles over their edges.
 double rms_height(const SubdivisionLevel& coarse, const std::vector<Vec3>& positions) {
@@ -41,9 +52,10 @@ double rms_height(const SubdivisionLevel& coarse, const std::vector<Vec3>& posit
 
 int sufficient_precision(const SubdivisionLevel& coarse, const std::vector<Vec3>& positions, double diagonal) {
   const double step = rms_height(coarse, positions) / kStepsPerHeight;
-  if (!(diagonal > 0.0)) return kLeastBits;
-  if (!(step > 0.0)) return kMostBits;
-  return std::clamp(std::ilogb(diagonal) - std::ilogb(step), kLeastBits, kMostBits);
+  constexpr int kLeast = kPassesPerPlane * kLeastBits, kMost = kPassesPerPlane * kMostBits;
+  if (!(diagonal > 0.0)) return kLeast;
+  if (!(step > 0.0)) return kMost;
+  return std::clamp(kPassesPerPlane * std::ilogb(diagonal) - passes_of(step), kLeast, kMost);
 }
 
 }  // namespace gsp

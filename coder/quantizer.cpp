@@ -78,9 +78,7 @@ std::vector<std::array<std::uint32_t, 3>> quantize_base(const std::vector<Vec3>&
 
 BitplaneCoefficients quantize(const std::vector<Vec3>& base, const std::vector<std::vector<Vec3>>& details,
                               double diagonal, int precision_bits, StreamHeader& header) {
-  // Base positions have a bit more for each level; all must fit 31 bits, control points outside the box included.
-  const int bits = std::min(precision_bits + kSpareBits, 27 - header.level);
-  header.step_exponent = std::ilogb(extent(base, diagonal)) - bits;
+  header.step_exponent = std::ilogb(extent(base, diagonal)) - precision_bits - kSpareBits;
   BitplaneCoefficients integers;
   integers.base = quantize_base(base, header);
   std::uint32_t largest = 0;

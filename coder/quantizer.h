@@ -7,10 +7,14 @@
 
 namespace gsp {
 
+/// Base positions have a bit more for each level; all must fit 31 bits, control points outside the box included.
+constexpr int most_precision_bits(int level) { return 25 - level; }
+
 /// Turns coefficients into integers. Steps are in inverse proportion to the L2 norm of what a coefficient adds to the
 /// surface: the step of normal details doubles per finer level, tangential details take `header.tangential_ratio` times
 /// it, base positions the coarsest level's share. Sets the header's step exponent, origin and plane counts.
-/// `details[l]` are in local frames: normal, two tangential components.
+/// `details[l]` are in local frames: normal, two tangential components. `precision_bits` is at most
+/// `most_precision_bits`.
 BitplaneCoefficients quantize(const std::vector<Vec3>& base, const std::vector<std::vector<Vec3>>& details,
                               double diagonal, int precision_bits, StreamHeader& header);
 
