@@ -1,6 +1,7 @@
 #include "experiments/recipe.h"
 
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <fstream>
 #include <set>
 
@@ -182,4 +183,17 @@ TEST_CASE("a key that a block sets besides a model above it is refused with both
     CHECK(error.index().value_or(-1) == 3);
     CHECK(says(error.what(), "for shape:torus above (line 1)"));
   }
+}
+
+TEST_CASE("the recipes that come with the program say what they mean, and describe themselves") {
+  int recipes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("experiments/recipes")) {
+    CAPTURE(entry.path());
+    const Recipe recipe = read_recipe(entry.path().string(), {"shape:torus"});
+    CHECK(recipe.name == entry.path().stem());
+    CHECK_FALSE(recipe.description.empty());
+    CHECK_FALSE(recipe.blocks.empty());
+    ++recipes;
+  }
+  CHECK(recipes >= 7);
 }
