@@ -131,10 +131,11 @@ void add_distance(CLI::App& app, Context& context) {
   command.flag("--mpeg", options->mpeg, "also MPEG's D2 PSNR (point to plane)");
   command.optional_file("--per-vertex", options->per_vertex, "also write A as PLY with each vertex's distance and a colour");
   command.footer(
-      "Forward is from A to B. Mean, RMS and the 95% quantile are over area; Hausdorff is the largest over the samples,\n"
-      "which --hausdorff-tolerance encloses from both sides. The standard error is that of the RMS. PSNR is\n"
-      "20 log10(diagonal of A's bounding box / larger RMS); MPEG's D1 and D2 use another peak and formula and are other\n"
-      "numbers. Metro's averages mix vertex, edge and face samples without weights: only for comparison with papers.");
+      "Forward is from A to B, and beneath both directions stands the larger number of the two. Mean, RMS and the 95%\n"
+      "quantile are over area; Hausdorff is the largest over the samples, which --hausdorff-tolerance encloses from both\n"
+      "sides. The standard error is that of the RMS. PSNR is 20 log10(diagonal of A's bounding box / larger RMS); MPEG's D1\n"
+      "and D2 use another peak and formula and are other numbers. Metro's averages mix vertex, edge and face samples without\n"
+      "weights: only for comparison with papers.");
   command.on_run([options, &context] { return run_distance(*options, context); });
 }
 

@@ -78,7 +78,7 @@ int run_encode(const EncodeArguments& options, Context& context) {
                          {"bytes", stream.size()},
                          {"header_bytes", header},
                          {"whole_stream_bytes", whole.size()},
-                         {"bytes_by_part", parts_report(parts)},
+                         {"whole_stream_by_part", parts_report(parts)},
                          {"output", options.output}});
   return 0;
 }

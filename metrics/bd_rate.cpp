@@ -59,22 +59,31 @@ CubicInterpolant interpolant(BdInterpolation kind, const std::vector<double>& x,
   return CubicInterpolant::least_squares(x, y);
 }
 
+/// What curves are averaged over: its name, and a value of it as people read it.
+struct Abscissa {
+  const char* name;
+  double (*shown)(double);
+};
+constexpr Abscissa kPsnr = {"PSNR", [](double x) { return x; }};
+constexpr Abscissa kLogRate = {"rate", [](double x) { return std::pow(10.0, x); }};
+
 /// Mean over the overlap of [low, high] ranges of test less anchor.
 BdAverage average(const CubicInterpolant& anchor, double anchor_top, const CubicInterpolant& test, double test_top,
-                  const char* what) {
+                  const Abscissa& over) {
   BdAverage result;
   result.from = std::max(anchor.front(), test.front());
   result.to = std::min(anchor_top, test_top);
   if (!(result.to > result.from))
-    throw Error(Cause::BadOption, std::string("the curves do not overlap in ") + what + " under their ceilings: " +
-                                      text("%.6g to %.6g", anchor.front(), anchor_top) + " and " +
-                                      text("%.6g to %.6g", test.front(), test_top));
+    throw Error(Cause::BadOption,
+                std::string("the curves do not overlap in ") + over.name + " under their ceilings: " +
+                    text("%.6g to %.6g", over.shown(anchor.front()), over.shown(anchor_top)) + " and " +
+                    text("%.6g to %.6g", over.shown(test.front()), over.shown(test_top)));
   const double length = result.to - result.from;
   result.overlap_share = length / (std::max(anchor_top, test_top) - std::min(anchor.front(), test.front()));
   result.value = (test.integral(result.from, result.to) - anchor.integral(result.from, result.to)) / length;
   result.small_overlap = result.overlap_share < kSmallOverlap;
   if (result.small_overlap)
-    result.warning = std::string("the curves share ") + text("%.0f%% of their range in ", 100.0 * result.overlap_share, 0.0) + what +
+    result.warning = std::string("the curves share ") + text("%.0f%% of their range in ", 100.0 * result.overlap_share, 0.0) + over.name +
                      ": the average says little about the rest";
   return result;
 }
@@ -103,7 +112,7 @@ BdResult bd_compare(const BdCurve& anchor_curve, const BdCurve& test_curve, cons
 
   const CubicInterpolant anchor_rate = interpolant(options.interpolation, anchor.psnr, anchor.log_rate);
   const CubicInterpolant test_rate = interpolant(options.interpolation, test.psnr, test.log_rate);
-  result.rate = average(anchor_rate, anchor.top, test_rate, test.top, "PSNR");
+  result.rate = average(anchor_rate, anchor.top, test_rate, test.top, kPsnr);
   result.rate.value = 100.0 * (std::pow(10.0, result.rate.value) - 1.0);
   require_finite(result.rate);
 
@@ -113,7 +122,7 @@ BdResult bd_compare(const BdCurve& anchor_curve, const BdCurve& test_curve, cons
   };
   result.psnr = average(interpolant(options.interpolation, anchor.log_rate, anchor.psnr), top_rate(anchor, anchor_rate),
                         interpolant(options.interpolation, test.log_rate, test.psnr), top_rate(test, test_rate),
-                        "the logarithm of the rate");
+                        kLogRate);
   result.psnr.from = std::pow(10.0, result.psnr.from);
   result.psnr.to = std::pow(10.0, result.psnr.to);
   require_finite(result.psnr);
