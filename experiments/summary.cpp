@@ -72,10 +72,10 @@ void print_definitions(std::ostream& out, const std::string& first, bool fixed) 
       out,
       "PSNR = 20 log10(bounding-box diagonal of the input / RMS distance), RMS the larger of both directions.\n"
       "positions: what the remesh's vertices are; the paper's are sampled. ceiling: PSNR of the uncoded remesh.\n"
-      "50 dB ...: bytes at which the curve reaches it.\n"
+      "50 dB ...: bytes at which the curve reaches it; - where it starts above, or does not.\n"
       "gain: PSNR of {} less that of the row's method, mean over log-bytes from {:.0f} bytes up to where the first\n"
       "of the two curves is within {:.0f} dB of its own ceiling. ratio: the row's bytes over those of {} at {:.0f} "
-      "dB.\n"
+      "dB. Neither is said where the curves have nothing of it in common.\n"
       "Curves are linear in log-bytes between their points; decimate-draco is the upper envelope of its points.\n"
       "BD-rate, BD-PSNR: mean bytes of {} at equal PSNR less the other's, and mean PSNR at equal bytes, by PCHIP on "
       "the\n"
