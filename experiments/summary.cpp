@@ -188,10 +188,12 @@ void print_summaries(std::ostream& out, const std::vector<CurveSummary>& summari
     if (first.empty() && !summary.methods.empty()) first = summary.methods.front().method;
   }
   if (first.empty()) return;
-  out << "mean over the models\n";
+  bool any = false;
   for (const std::string& other : others) {
     const MeanGain mean = mean_gain_over(summaries, other);
     if (!mean.gain_db && !mean.bd_rate) continue;
+    if (!any) out << "mean over the models\n";
+    any = true;
     fmt::print(out, "  {} over {}:", first, other);
     if (mean.gain_db)
       fmt::print(out, " {:+.2f} dB ({} of {} models)", *mean.gain_db, mean.gain_models, summaries.size());

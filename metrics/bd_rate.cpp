@@ -47,6 +47,9 @@ Rising rising(const BdCurve& curve, const BdOptions& options, const char* name, 
                                       " usable points; " + interpolation_name(options.interpolation) + " needs " +
                                       std::to_string(least));
   result.top = std::min(result.psnr.back(), curve.ceiling_db - options.ceiling_margin_db);
+  if (!(result.top > result.psnr.front()))
+    throw Error(Cause::BadOption, std::string("the ") + name + text(" curve starts at %.6g dB, within %.6g dB of its ceiling",
+                                                                    result.psnr.front(), options.ceiling_margin_db));
   return result;
 }
 

@@ -115,7 +115,7 @@ TEST_CASE("a curve that needs more bytes is a BD-rate regression by just that sh
   CHECK(std::stod(dearer.moved.front().after) == Approx(10.0));
   CHECK_FALSE(dearer.passed());
   const CheckResult apart = after([](BaselineRow& row) {
-    for (RatePoint& point : row.curve) point.psnr_db += 60.0;
+    for (RatePoint& point : row.curve) point.psnr_db -= 60.0;
   });
   CHECK_FALSE(apart.passed());
   CHECK(apart.moved.front().after.find("do not overlap") != std::string::npos);
