@@ -44,19 +44,21 @@ class Pricer {
   };
   struct SampleEdge {
     Complex flat;  ///< difference of the ends in the plane
-    double length; ///< on the surface
+    double length, inverse_square;  ///< on the surface
   };
   struct Terms {
     double area = 0.0, sigma = 1.0, delta = 1.0, triangle_area = 0.0;
   };
 
-  Complex flat_position(int vertex) const;
+  void lay_out(int vertex);
   void collect_samples();
-  void add_sample(int vertex, double weight);
+  void add_sample(int vertex, Complex flat, double weight);
   bool flat_of(int vertex, Complex& flat) const;
   Terms terms(const RingTriangle& t) const;
   double outer_dispersion(const RingTriangle& t, double area) const;
+  bool is_free_edge(int i, int j) const;
   bool triangulate(Candidate& candidate);
+  void fill_best();
 
   const Surface& surface_;
   const TriangleComplex& complex_;
@@ -67,6 +69,11 @@ class Pricer {
 
   Star star_;
   std::vector<Complex> ring_;
+  std::vector<std::array<Complex, 3>> triangle_flat_;  ///< per triangle of the star, by the complex's corners
+  std::vector<Vec3> corner_;                           ///< of the ring, on the surface
+  std::vector<double> corner_area_;
+  std::vector<double> length_;  ///< ring x ring, on the surface
+  std::vector<char> barred_;    ///< ring x ring, what the filling must not have as an edge
   std::vector<double> outer_area_;  ///< per ring edge, area of the triangle behind it; 0 on a boundary
   std::vector<Sample> samples_;
   std::vector<SampleEdge> edges_;
