@@ -26,6 +26,8 @@ struct Entry {
 constexpr int kRatio = 8;  // most vertices of one level for each of the next
 constexpr int kAutomaticRatio = 16;  // vertices for each of the coarsest level, where the base's size is not known
 constexpr int kSmallestLevel = 4000;
+constexpr int kBatchShare = 64;  // vertices of the complex for each of those that are priced side by side
+constexpr int kBlocks = 8, kLargestBlock = 16;  // of such a batch
 constexpr int kLevelPerBase = 16;  // vertices of the coarsest level for each of the base
 
 int used_vertices(const Surface& surface) {
@@ -52,7 +54,8 @@ class Simplifier {
         pricer_(*surface_, map_.complex(), map_.locations(), map_.points(), options_),
         start_(used_vertices(*surface)),
         stop_(start_),
-        remaining_(start_) {}
+        remaining_(start_),
+        pricers_(kBlocks, pricer_) {}
 
   SimplifyResult run(int coarsest);
 
@@ -65,6 +68,7 @@ class Simplifier {
   };
 
   void price_all();
+  void price_next(int vertex);
   void remove_down_to(int target);
   bool remove(const Star& star, const Candidate& candidate);
   bool has_taken_edge(const Star& star, const Candidate& candidate) const;
@@ -87,10 +91,12 @@ class Simplifier {
 
   std::vector<Candidate> candidates_;  ///< per vertex, as it was last priced
   std::vector<int> stamp_;
-  std::vector<char> stale_;   ///< its star changed since it was priced
-  std::vector<char> beside_;  ///< a triangle behind its star has changed since
+  std::vector<char> stale_;  ///< its star, or a triangle behind it, has changed since it was priced
   std::vector<char> queued_;
   std::priority_queue<Entry> queue_;
+  std::vector<Pricer> pricers_;  ///< of the blocks of a batch
+  std::vector<int> batch_;
+  std::vector<Entry> fresh_;
   std::vector<Triangle> filling_;
 };
 
@@ -104,7 +110,6 @@ void Simplifier::price_all() {
   });
   stamp_.assign(count, 0);
   stale_.assign(count, 0);
-  beside_.assign(count, 0);
   queued_.assign(count, 0);
   for (int v = 0; v < count; ++v) {
     if (!candidates_[v].feasible) continue;
@@ -121,6 +126,34 @@ bool Simplifier::has_taken_edge(const Star& star, const Candidate& candidate) co
   });
 }
 
+/// Prices a vertex, and with it those that are to be priced next, on all cores. How many depends on the complex alone, and is
+/// small beside it, so that few of them change again before their turn.
+void Simplifier::price_next(int vertex) {
+  batch_.assign(1, vertex);
+  fresh_.clear();
+  const std::size_t most = std::clamp(remaining_ / kBatchShare, 1, kBlocks * kLargestBlock);
+  while (batch_.size() < most && fresh_.size() < most && !queue_.empty()) {
+    const Entry next = queue_.top();
+    queue_.pop();
+    if (next.stamp != stamp_[next.vertex]) continue;
+    if (stale_[next.vertex])
+      batch_.push_back(next.vertex);
+    else
+      fresh_.push_back(next);
+  }
+  for (const Entry& entry : fresh_) queue_.push(entry);
+  const std::size_t block = (batch_.size() + kBlocks - 1) / kBlocks;
+  parallel_for(batch_.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) pricers_[begin / block].price(batch_[i], candidates_[batch_[i]]);
+  });
+  for (int v : batch_) {
+    stale_[v] = 0;
+    queued_[v] = candidates_[v].feasible;
+    ++stamp_[v];
+    if (queued_[v]) queue_.push({candidates_[v].parts.omega(), v, stamp_[v]});
+  }
+}
+
 void Simplifier::remove_down_to(int target) {
   std::vector<OmegaRecord>& record = result_.omega;
   Star star;
@@ -128,20 +161,14 @@ void Simplifier::remove_down_to(int target) {
     const Entry top = queue_.top();
     queue_.pop();
     if (top.stamp != stamp_[top.vertex]) continue;
-    queued_[top.vertex] = 0;  // if it cannot be removed now it waits until its star changes
     Candidate& candidate = candidates_[top.vertex];
     map_.complex().gather(top.vertex, star);
-    const bool stale = stale_[top.vertex];
-    if (stale || beside_[top.vertex] || has_taken_edge(star, candidate)) {
-      stale_[top.vertex] = beside_[top.vertex] = 0;
-      pricer_.price(top.vertex, candidate);
-    }
-    if (!candidate.feasible || !pricer_.leaves_surface(star)) continue;
-    if (stale) {
-      queued_[top.vertex] = 1;
-      queue_.push({candidate.parts.omega(), top.vertex, ++stamp_[top.vertex]});
+    if (stale_[top.vertex] || has_taken_edge(star, candidate)) {
+      price_next(top.vertex);
       continue;
     }
+    queued_[top.vertex] = 0;  // if it cannot be removed now it waits until its star changes
+    if (!pricer_.leaves_surface(star)) continue;
     candidate.parts.remaining_vertices = remaining_ - 1;
     if (options_.base_vertices == 0 && stop_.reached(candidate.parts)) {
       record.push_back(candidate.parts);
@@ -185,7 +212,7 @@ bool Simplifier::remove(const Star& star, const Candidate& candidate) {
   for (int t : star.triangles) {
     const int other = complex.opposite(t, star.center);
     if (other < 0) continue;
-    for (int v : complex.corners(other)) beside_[v] = 1;
+    for (int v : complex.corners(other)) stale_[v] = 1;
   }
   map_.remove({star.center, candidate.triangles});
   filling_.clear();
@@ -194,7 +221,7 @@ bool Simplifier::remove(const Star& star, const Candidate& candidate) {
   result_.removals.add(star.center, filling_);
   --remaining_;
   for (int neighbour : star.ring) {
-    stale_[neighbour] = 1;
+    stale_[neighbour] = 1;  // on a boundary the triangles behind do not name all
     if (queued_[neighbour]) continue;
     // It could not be removed before; in its new star it may be.
     queue_.push({0.0, neighbour, ++stamp_[neighbour]});
@@ -233,7 +260,7 @@ SimplifyResult Simplifier::run(int coarsest) {
     if (queue_.empty()) break;
   }
   result_.map.emplace(level_.surface);
-  pricer_.allow_chords();
+  for (Pricer& pricer : pricers_) pricer.allow_chords();
   for (int v = 0; v < static_cast<int>(queued_.size()); ++v)  // what could not be removed before may be now
     if (!queued_[v] && level_.vertex[v] >= 0 && surface_->halfedges.outgoing[v] >= 0) {
       queue_.push({0.0, v, ++stamp_[v]});
