@@ -30,13 +30,30 @@ Eigen::Matrix2d reference_shape(const Mesh& mesh, const Triangle& t, double area
   return std::sqrt(larger) * shape;
 }
 
-/// With singular values s1, s2 and d = s1 s2, the energy of a face is f = (s1/s2 + s2/s1)/2 + λ (d + 1/d)/2. Its Hessian by
-/// the four entries of J = (j1, j2) has two eigenvectors in the plane of the stretches u1 v1ᵀ and u2 v2ᵀ, and the twist and
-/// the flip, (u2 v1ᵀ ∓ u1 v2ᵀ)/√2.
-Eigen::Matrix4d convex_hessian_by_jacobian(Complex j1, Complex j2, double area_weight) {
+/// z / |z|, and 1 for 0.
+Complex direction_of(Complex z) {
+  const double length = std::sqrt(std::norm(z));
+  return length > 0.0 ? z / length : Complex(1.0);
+}
+
+/// One of the two square roots of a complex number of modulus 1.
+Complex half_turn(Complex z) {
+  return z.real() >= 0.0 ? direction_of({1.0 + z.real(), z.imag()}) : direction_of({z.imag(), 1.0 - z.real()});
+}
+
+/// An eigenvector of a face's Hessian by the four entries of J.
+struct Mode {
+  double curvature;
+  Complex j1, j2;
+};
+
+/// With singular values s1, s2 and d = s1 s2, the energy of a face is f = (s1/s2 + s2/s1)/2 + λ (d + 1/d)/2. Its Hessian has
+/// two eigenvectors in the plane of the stretches u1 v1ᵀ and u2 v2ᵀ, and the twist and the flip, (u2 v1ᵀ ∓ u1 v2ᵀ)/√2. The
+/// curvatures are those of the convex Hessian.
+std::array<Mode, 4> convex_modes(Complex j1, Complex j2, double area_weight) {
   // J z = α z + β conj(z).
   const Complex i(0.0, 1.0), alpha = 0.5 * (j1 - i * j2), beta = 0.5 * (j1 + i * j2);
-  const double s1 = std::abs(alpha) + std::abs(beta), s2 = std::abs(alpha) - std::abs(beta);
+  const double a = std::sqrt(std::norm(alpha)), b = std::sqrt(std::norm(beta)), s1 = a + b, s2 = a - b;
   const double d = s1 * s2, q = s1 * s1 + s2 * s2, dd = d * d;
   const double half = 0.5 * area_weight;
   const double f11 = s2 / (s1 * s1 * s1) + area_weight / (s1 * s1 * d);
@@ -44,27 +61,23 @@ Eigen::Matrix4d convex_hessian_by_jacobian(Complex j1, Complex j2, double area_w
   const double f12 = -0.5 * q / dd + half * (1.0 + 1.0 / dd);
   const double twist = 0.5 / d - 0.5 * (q - d) / dd + half * (1.0 - 1.0 / dd);
   const double flip = 0.5 / d + 0.5 * (q + d) / dd - half * (1.0 - 1.0 / dd);
-  const double turn_u = 0.5 * (std::arg(alpha) + std::arg(beta)), turn_v = 0.5 * (std::arg(beta) - std::arg(alpha));
-  const Eigen::Vector2d u1(std::cos(turn_u), std::sin(turn_u)), u2(-u1[1], u1[0]);
-  const Eigen::Vector2d v1(std::cos(turn_v), std::sin(turn_v)), v2(-v1[1], v1[0]);
-  const auto outer = [](const Eigen::Vector2d& u, const Eigen::Vector2d& v) {
-    return Eigen::Vector4d(u[0] * v[0], u[1] * v[0], u[0] * v[1], u[1] * v[1]);
+  // u1 turns by half the sum of the arguments of α and β, v1 by half the difference of those of β and α.
+  const Complex turn_of_alpha = direction_of(alpha);
+  const Complex u = half_turn(turn_of_alpha * direction_of(beta)), v = u * std::conj(turn_of_alpha);
+  const Complex stretch1[2] = {u * v.real(), u * v.imag()}, stretch2[2] = {-i * u * v.imag(), i * u * v.real()};
+  const double mean = 0.5 * (f11 + f22), difference = 0.5 * (f11 - f22);
+  const double radius = std::sqrt(difference * difference + f12 * f12);
+  const Complex turn = half_turn(direction_of({difference, f12}));
+  const double least = kLeastCurvature * (mean + radius), root = std::sqrt(0.5);
+  const auto mode = [&](double curvature, double of_first, const Complex* first, double of_second, const Complex* second) {
+    return Mode{std::max(curvature, least), of_first * first[0] + of_second * second[0],
+                of_first * first[1] + of_second * second[1]};
   };
-  const Eigen::Vector4d stretch1 = outer(u1, v1), stretch2 = outer(u2, v2), a = outer(u2, v1), b = outer(u1, v2);
-  const double mean = 0.5 * (f11 + f22), difference = 0.5 * (f11 - f22), radius = std::hypot(difference, f12);
-  const double turn = 0.5 * std::atan2(f12, difference);
-  const Eigen::Vector4d first = std::cos(turn) * stretch1 + std::sin(turn) * stretch2;
-  const Eigen::Vector4d second = std::cos(turn) * stretch2 - std::sin(turn) * stretch1;
-  const double least = kLeastCurvature * (mean + radius);
-  Eigen::Matrix4d h = Eigen::Matrix4d::Zero();
-  const auto add = [&](double value, const Eigen::Vector4d& vector) {
-    h += std::max(value, least) * vector * vector.transpose();
-  };
-  add(mean + radius, first);
-  add(mean - radius, second);
-  add(twist, std::sqrt(0.5) * (a - b));
-  add(flip, std::sqrt(0.5) * (a + b));
-  return h;
+  const Complex shear1[2] = {i * stretch1[0], i * stretch1[1]}, shear2[2] = {i * stretch2[0], i * stretch2[1]};
+  return {mode(mean + radius, turn.real(), stretch1, turn.imag(), stretch2),
+          mode(mean - radius, turn.real(), stretch2, -turn.imag(), stretch1),
+          mode(twist, root, shear1, root, shear2),
+          mode(flip, root, shear1, -root, shear2)};
 }
 
 }  // namespace
@@ -210,10 +223,13 @@ DistortionEnergy::ByCorner DistortionEnergy::by_corner(int face_index, int corne
   const Slope s = slope(at, 0.0);
   const double first = by.first[corner], second = by.second[corner];
   const Complex g = face.shape.weight * std::conj(face.turn[corner]) * (first * s.by_j1 + second * s.by_j2);
-  const Eigen::Matrix<double, 4, 2> chain = by_position(face, corner, by);
-  return {face.shape.weight * s.density,
-          {g.real(), g.imag()},
-          face.shape.weight * chain.transpose() * convex_hessian_by_jacobian(at.j1, at.j2, area_weight_) * chain};
+  Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
+  for (const Mode& mode : convex_modes(at.j1, at.j2, area_weight_)) {
+    const Complex w = std::conj(face.turn[corner]) * (first * mode.j1 + second * mode.j2);
+    const Eigen::Vector2d by_position(w.real(), w.imag());
+    hessian += face.shape.weight * mode.curvature * by_position * by_position.transpose();
+  }
+  return {face.shape.weight * s.density, {g.real(), g.imag()}, hessian};
 }
 
 std::array<int, 3> DistortionEnergy::variables(int face) const {
@@ -221,21 +237,23 @@ std::array<int, 3> DistortionEnergy::variables(int face) const {
   return {f.variable[0], f.variable[1], f.variable[2]};
 }
 
-Eigen::Matrix<double, 4, 2> DistortionEnergy::by_position(const Face& face, int corner, const Columns& by) {
-  Eigen::Matrix2d turn;
-  turn << face.turn[corner].real(), -face.turn[corner].imag(), face.turn[corner].imag(), face.turn[corner].real();
-  Eigen::Matrix<double, 4, 2> chain;
-  chain << by.first[corner] * turn, by.second[corner] * turn;
-  return chain;
-}
-
 Eigen::Matrix<double, 6, 6> DistortionEnergy::convex_hessian(int face_index, const double* x) const {
   const Face& face = faces_[face_index];
   const Columns by = columns(face);
   const Jacobian at = jacobian(by, corners(face, x));
-  Eigen::Matrix<double, 4, 6> chain;
-  for (int k = 0; k < 3; ++k) chain.middleCols<2>(2 * k) = by_position(face, k, by);
-  return face.shape.weight * chain.transpose() * convex_hessian_by_jacobian(at.j1, at.j2, area_weight_) * chain;
+  Eigen::Matrix<double, 6, 6> hessian = Eigen::Matrix<double, 6, 6>::Zero();
+  for (const Mode& mode : convex_modes(at.j1, at.j2, area_weight_)) {
+    double by_position[6];
+    for (int k = 0; k < 3; ++k) {
+      const Complex w = std::conj(face.turn[k]) * (by.first[k] * mode.j1 + by.second[k] * mode.j2);
+      by_position[2 * k] = w.real();
+      by_position[2 * k + 1] = w.imag();
+    }
+    const double weight = face.shape.weight * mode.curvature;
+    for (int row = 0; row < 6; ++row)
+      for (int column = 0; column < 6; ++column) hessian(column, row) += weight * by_position[row] * by_position[column];
+  }
+  return hessian;
 }
 
 double DistortionEnergy::longest_step(const double* x, const double* direction) const {

@@ -73,8 +73,6 @@ class DistortionEnergy {
     double first[3], second[3];
   };
   static Columns columns(const Face& face);
-  /// Derivatives of (j1, j2) by the position of one corner.
-  static Eigen::Matrix<double, 4, 2> by_position(const Face& face, int corner, const Columns& by);
   std::array<Complex, 3> corners(const Face& face, const double* x) const;
   struct Jacobian {
     Complex j1, j2;

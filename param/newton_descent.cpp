@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "mesh/parallel.h"
 #include "param/lower_peaks.h"
@@ -39,17 +40,44 @@ void NewtonDescent::for_each_entry(Visit&& visit) const {
 }
 
 void NewtonDescent::find_pattern() {
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(21 * static_cast<std::size_t>(energy_.face_count()));
-  for_each_entry([&](int, int, int, int row, int column) { entries.emplace_back(row, column, 0.0); });
-  const int n = 2 * energy_.variable_count();
-  hessian_.resize(n, n);
-  hessian_.setFromTriplets(entries.begin(), entries.end());
-  place_.reserve(entries.size());
+  const int count = energy_.variable_count();
+  // Per variable, the later ones that share a face with it.
+  std::vector<int> first(count + 1, 0), later;
+  const auto for_each_pair = [&](auto&& visit) {
+    for (int f = 0; f < energy_.face_count(); ++f) {
+      const auto v = energy_.variables(f);
+      for (int k = 0; k < 3; ++k) {
+        const auto [low, high] = std::minmax(v[k], v[(k + 1) % 3]);
+        if (low >= 0 && low < high) visit(low, high);
+      }
+    }
+  };
+  for_each_pair([&](int low, int) { ++first[low + 1]; });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  later.resize(first.back());
+  std::vector<int> next(first.begin(), first.end() - 1);
+  for_each_pair([&](int low, int high) { later[next[low]++] = high; });
+
+  std::vector<int> columns{0}, rows;
+  for (int v = 0; v < count; ++v) {
+    const auto begin = later.begin() + first[v];
+    std::sort(begin, later.begin() + first[v + 1]);
+    const auto end = std::unique(begin, later.begin() + first[v + 1]);
+    for (int column = 2 * v; column <= 2 * v + 1; ++column) {
+      for (int row = column; row <= 2 * v + 1; ++row) rows.push_back(row);
+      for (auto w = begin; w != end; ++w) {
+        rows.push_back(2 * *w);
+        rows.push_back(2 * *w + 1);
+      }
+      columns.push_back(static_cast<int>(rows.size()));
+    }
+  }
+  const std::vector<double> zeros(rows.size(), 0.0);
+  hessian_ = Eigen::Map<const Eigen::SparseMatrix<double>>(2 * count, 2 * count, rows.size(), columns.data(), rows.data(),
+                                                           zeros.data());
   for_each_entry([&](int, int, int, int row, int column) {
-    const int* first = hessian_.innerIndexPtr() + hessian_.outerIndexPtr()[column];
-    const int* last = hessian_.innerIndexPtr() + hessian_.outerIndexPtr()[column + 1];
-    place_.push_back(static_cast<int>(std::lower_bound(first, last, row) - hessian_.innerIndexPtr()));
+    const auto begin = rows.begin() + columns[column], end = rows.begin() + columns[column + 1];
+    place_.push_back(static_cast<int>(std::lower_bound(begin, end, row) - rows.begin()));
   });
 }
 
