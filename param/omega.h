@@ -21,7 +21,7 @@ struct Candidate {
 /// pricer each.
 class Pricer {
  public:
-  static constexpr int kSamples = 96;
+  static constexpr int kSamples = 32;
   static constexpr int kLargestRing = 32;
 
   Pricer(const Surface& surface, const TriangleComplex& complex, const std::vector<Location>& locations,
