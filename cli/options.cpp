@@ -246,6 +246,8 @@ void Command::parameterize_options(ParameterizeOptions& options) {
             "what the map minimises: linear is the paper's global system");
   axis_word("corners", &CellOptions::parameterize, options,
             "how corners move between solves: the paper's relaxation, or down the energy's gradient");
+  axis_word("base_edges", &CellOptions::parameterize, options,
+            "whether base edges are flipped where that lowers the distortion, or kept as the simplification left them");
   axis_word("weights", &CellOptions::parameterize, options, "of the linear objective and of corner relaxation");
 }
 

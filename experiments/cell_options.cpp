@@ -21,6 +21,7 @@ constexpr Objective kObjectives[] = {Objective::Distortion, Objective::Linear};
 constexpr Weights kWeights[] = {Weights::MeanValue, Weights::Cotangent, Weights::Uniform};
 constexpr Corners kCorners[] = {Corners::Relax, Corners::Gradient};
 constexpr StreamMode kStreamModes[] = {StreamMode::Embedded, StreamMode::Fixed};
+constexpr BaseEdges kBaseEdges[] = {BaseEdges::Flip, BaseEdges::Keep};
 constexpr double kMostWeight = 1e6;
 constexpr int kMostRelaxations = 1000;
 constexpr double kMostInt = std::numeric_limits<int>::max();
@@ -91,6 +92,9 @@ std::vector<Axis> map_axes() {
       {"corners", kStage, Kind::Word, 0, 0, words_of(kCorners, corners_name),
        [](const Options& o) { return Value(corners_name(o.parameterize.corners)); },
        [](Options& o, const Value& v) { o.parameterize.corners = value_of(kCorners, corners_name, v); }},
+      {"base_edges", kStage, Kind::Word, 0, 0, words_of(kBaseEdges, base_edges_name),
+       [](const Options& o) { return Value(base_edges_name(o.parameterize.base_edges)); },
+       [](Options& o, const Value& v) { o.parameterize.base_edges = value_of(kBaseEdges, base_edges_name, v); }},
       {"relaxations",
        kStage,
        Kind::Integer,
@@ -257,8 +261,9 @@ bool Axis::applies_to(const std::string& method) const {
   if (text == "method" || text == "samples" || text == "seed") return true;
   if (is_anchor(method)) return false;
   if (text == "weights" && method == method_name(Method::Hybrid)) return true;
-  return (text != "objective" && text != "weights" && text != "corners" && text != "relaxations") ||
-         method == method_name(Method::Gsp);
+  for (const char* of_gsp : {"objective", "weights", "corners", "base_edges", "relaxations"})
+    if (text == of_gsp) return method == method_name(Method::Gsp);
+  return true;
 }
 
 const std::vector<Axis>& axes() {

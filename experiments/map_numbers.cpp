@@ -19,6 +19,7 @@ std::map<std::string, double> map_numbers(const ParameterizeResult& result, int 
       {"vertices_added", map.surface.vertex_count() - input_vertices},
       {"held_vertices", result.held_vertices},
       {"corners_moved", result.corners_moved},
+      {"base_edges_flipped", result.base_edges_flipped},
       {"relaxation_rounds", result.relaxation_rounds},
       {"anisotropy_mean", d.anisotropy.mean},
       {"anisotropy_p95", d.anisotropy.p95},

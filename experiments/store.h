@@ -22,7 +22,7 @@ struct StageResult {
   std::string failure;  ///< the same as a sentence
   /// Measured numbers by name; none is infinite or NaN.
   /// Parameterize: base_vertices, base_faces, flipped_faces, wrong_angle_vertices, flips_before_repair, vertices_added,
-  /// held_vertices, corners_moved, relaxation_rounds; of distortion.h anisotropy_mean, anisotropy_p95,
+  /// held_vertices, corners_moved, base_edges_flipped, relaxation_rounds; of distortion.h anisotropy_mean, anisotropy_p95,
   /// area_symmetric_mean, sorkine_mean, l2_stretch; of smoothness.h smoothness_inside, smoothness_across,
   /// smoothness_at_corner (means) and, where it has a value, smoothness_across_over_inside.
   /// Remesh: level, remesh_faces, remesh_error (larger RMS over the input's diagonal), remesh_forward, remesh_backward,

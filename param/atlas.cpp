@@ -18,7 +18,7 @@ bool inside_chart(Complex z) {
   return std::min({w[0], w[1], w[2]}) >= -kOnEdge;
 }
 
-std::optional<Arrival> follow(const BaseComplex& base, int chart, Complex from, Complex to) {
+std::optional<Arrival> follow(const BaseComplex& base, int chart, Complex from, Complex to, std::vector<int>* sides) {
   Arrival at{chart, {}};
   int entered = -1;  // edge of the chart by which the way came in
   for (int step = 0; step <= base.face_count(); ++step) {
@@ -37,6 +37,7 @@ std::optional<Arrival> follow(const BaseComplex& base, int chart, Complex from, 
     if (crossed < 0) return at;
     const int side = 3 * at.chart + crossed;
     if (base.twins[side] < 0) return std::nullopt;
+    if (sides) sides->push_back(side);
     at.change = base.across(side) * at.change;
     at.chart = base.twins[side] / 3;
     entered = base.twins[side] % 3;
@@ -61,21 +62,29 @@ Transition BaseFan::develop(int s) const {
   return Transition{((s % 6) + 6) % 6, {}} * from_sector.inverse();
 }
 
+BaseFan base_fan(const BaseComplex& base, int halfedge) {
+  BaseFan fan;
+  int first = halfedge;
+  do {  // clockwise, to the boundary if there is one
+    const int twin = base.twins[first];
+    fan.boundary = twin < 0;
+    if (fan.boundary) break;
+    first = Halfedges::next(twin);
+  } while (first != halfedge);
+  int h = first;
+  do {
+    fan.sectors.push_back({h / 3, h % 3});
+    h = base.twins[Halfedges::prev(h)];
+  } while (h >= 0 && h != first);
+  return fan;
+}
+
 std::vector<BaseFan> base_fans(const BaseComplex& base) {
-  std::vector<BaseFan> fans(base.vertices.size());
   std::vector<int> first(base.vertices.size(), -1);
-  for (int h = 0; h < static_cast<int>(base.twins.size()); ++h) {
-    const int v = base.faces[h / 3][h % 3];
-    if (first[v] < 0 || base.twins[h] < 0) first[v] = h;
-  }
-  for (std::size_t v = 0; v < fans.size(); ++v) {
-    fans[v].boundary = base.twins[first[v]] < 0;
-    for (int h = first[v]; h >= 0;) {
-      fans[v].sectors.push_back({h / 3, h % 3});
-      h = base.twins[Halfedges::prev(h)];
-      if (h == first[v]) break;
-    }
-  }
+  for (int h = 0; h < static_cast<int>(base.twins.size()); ++h)
+    if (int& at = first[base.faces[h / 3][h % 3]]; at < 0) at = h;
+  std::vector<BaseFan> fans;
+  for (int h : first) fans.push_back(base_fan(base, h));
   return fans;
 }
 

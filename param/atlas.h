@@ -34,6 +34,8 @@ struct BaseFan {
 };
 
 std::vector<BaseFan> base_fans(const BaseComplex& base);
+/// That of the base vertex which a half-edge leaves.
+BaseFan base_fan(const BaseComplex& base, int halfedge);
 
 /// The base face with three base vertices in that order, -1 where there is none.
 int find_base_face(const BaseComplex& base, const std::vector<BaseFan>& fans, const std::array<int, 3>& corners);
@@ -47,8 +49,10 @@ struct Arrival {
   Transition change;  ///< from the chart where the way starts
 };
 /// Follows the straight way between two points given in one chart, of which the first lies in the chart's triangle, across
-/// base edges until the second lies in the triangle too. Nothing where the way leaves the base.
-std::optional<Arrival> follow(const BaseComplex& base, int chart, Complex from, Complex to);
+/// base edges until the second lies in the triangle too. Nothing where the way leaves the base. `sides` receives the
+/// half-edges that it crosses, each of the face that it leaves.
+std::optional<Arrival> follow(const BaseComplex& base, int chart, Complex from, Complex to,
+                              std::vector<int>* sides = nullptr);
 
 /// A map in the making: every vertex of the surface has a chart and a position in it, every edge an exact change of chart.
 /// Moving a vertex to another chart changes the transitions of its edges by one composition and nothing else

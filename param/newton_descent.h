@@ -18,6 +18,8 @@ class NewtonDescent {
 
   /// One step. Returns the share of the energy it gained, 0 where it found nothing.
   double step();
+  /// The energy at x.
+  double value() const { return value_; }
 
  private:
   template <class Visit>

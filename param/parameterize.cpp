@@ -46,6 +46,7 @@ std::vector<std::string> provenance(const Mesh& input, const ParameterizeOptions
           line("mu", options.mu),                      line("relaxations", options.relaxations),
           line("objective", objective_name(options.objective)),
           line("weights", weights_name(options.weights)), line("corners", corners_name(options.corners)),
+          line("base_edges", base_edges_name(options.base_edges)),
           line("input_vertices", input.vertex_count()), line("input_faces", input.face_count())};
 }
 
@@ -54,7 +55,7 @@ struct Start {
   std::optional<Atlas> maps;            ///< for the baselines alone
   std::optional<Atlas> injective;       ///< for Method::Gsp alone
   std::vector<int> base_vertices;       ///< of the surface, as the simplification left them
-  int rounds = 0;                       ///< of relaxation that `injective` has seen
+  SmoothingRecord smoothing;            ///< of `injective`
   std::vector<OmegaRecord> omega;
 };
 
@@ -64,7 +65,10 @@ Atlas smooth_map(const Start& start, const ParameterizeOptions& options, Paramet
   const Atlas atlas = options.objective == Objective::Linear
                           ? linear_map(*start.injective, options, result, progress)
                           : *start.injective;
-  if (options.objective == Objective::Distortion) result.relaxation_rounds = start.rounds;
+  if (options.objective == Objective::Distortion) {
+    result.relaxation_rounds = start.smoothing.rounds;
+    result.base_edges_flipped = start.smoothing.edges_flipped;
+  }
   for (int b = 0; b < atlas.base.vertex_count(); ++b)
     result.corners_moved += atlas.base.vertices[b] != start.base_vertices[b];
   return atlas;
@@ -93,7 +97,10 @@ Start make_start(const Mesh& mesh, const std::vector<Method>& methods, const Par
   const auto injective = std::count(methods.begin(), methods.end(), Method::Gsp);
   const int whole = surface->mesh.vertex_count();
   ParameterizeOptions smoothing = options;
-  if (options.objective == Objective::Linear) smoothing.relaxations = 0;  // it relaxes the corners of its own solution
+  if (options.objective == Objective::Linear) {  // it relaxes the corners of its own solution
+    smoothing.relaxations = 0;
+    smoothing.base_edges = BaseEdges::Keep;
+  }
   Start start;
   for (int coarsest = injective > 0 ? coarsest_level(*surface, options) : whole;;) {
     SimplifyResult simplified = simplify(surface, options, coarsest, progress);
@@ -105,7 +112,7 @@ Start make_start(const Mesh& mesh, const std::vector<Method>& methods, const Par
     std::optional<SmoothedMap> smoothed = smooth_levels(std::move(simplified), smoothing, progress);
     const bool joined = smoothed && (coarsest >= whole || check_map(smoothed->atlas.finish({})).valid());
     if (joined) {
-      start.rounds = smoothed->rounds;
+      start.smoothing = smoothed->record;
       start.injective = std::move(smoothed->atlas);
       break;
     }
@@ -151,6 +158,7 @@ ParameterizeOptions paper_options() {
   ParameterizeOptions options;
   options.objective = Objective::Linear;
   options.weights = Weights::MeanValue;
+  options.base_edges = BaseEdges::Keep;
   return options;
 }
 
@@ -168,6 +176,8 @@ const char* weights_name(Weights weights) {
 }
 
 const char* corners_name(Corners corners) { return corners == Corners::Gradient ? "gradient" : "relax"; }
+
+const char* base_edges_name(BaseEdges base_edges) { return base_edges == BaseEdges::Flip ? "flip" : "keep"; }
 
 const char* method_name(Method method) {
   switch (method) {

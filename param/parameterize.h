@@ -48,11 +48,21 @@ enum class Corners {
 /// "relax", "gradient".
 const char* corners_name(Corners corners);
 
+/// Whether the base keeps the edges that the simplification left.
+enum class BaseEdges {
+  Flip,  ///< where that lowers the distortion; with Objective::Distortion alone
+  Keep   ///< the paper's
+};
+
+/// "flip", "keep".
+const char* base_edges_name(BaseEdges base_edges);
+
 struct ParameterizeOptions {
   Method method = Method::Gsp;
   Objective objective = Objective::Distortion;
   Weights weights = Weights::MeanValue;
   Corners corners = Corners::Relax;
+  BaseEdges base_edges = BaseEdges::Flip;
   /// Base vertices to stop at, at least 4. 0: automatic, before metric distortion dominates Ω (§3.1.1, figure 5d).
   /// The simplification stops earlier, with a note, where no vertex can be removed any more.
   int base_vertices = 0;
@@ -80,6 +90,7 @@ struct ParameterizeResult {
   int flips_before_repair = 0;  ///< of the paper's solution with Objective::Linear; the other map never has any
   int relaxation_rounds = 0;
   int corners_moved = 0;
+  int base_edges_flipped = 0;
   int held_vertices = 0;  ///< kept back from the smooth solution, which would be folded there
 };
 

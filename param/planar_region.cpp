@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kSnap = 0.2;   // of a crossed edge, within which its end is moved onto the cut instead
 constexpr double kSmall = 1e-8; // area of a piece in the plane, the region's radius being 1, below which it is made larger
-constexpr double kBeside = 0.05;  // weight of a corner below which a new vertex goes onto the opposite side
+constexpr double kLightCorner = 0.05;  // weight of a corner below which a new vertex goes onto the opposite side
 constexpr int kRelaxations = 3;
 constexpr double kGain = 1.01;
 constexpr int kLongestCut = 1 << 20;
@@ -135,7 +135,7 @@ int PlanarRegion::insert(Complex at) {
       if (move_to(t[k], at, 1.0 - w[k])) made = t[k];
     // Beside a side the vertex goes onto it where the pieces behind stay upright, so that none is a sliver.
     const int side = 3 * f + (least + 1) % 3, twin = refined_.twin(side);
-    if (made < 0 && w[least] < kBeside && twin >= 0 && holds_face(twin / 3)) {
+    if (made < 0 && w[least] < kLightCorner && twin >= 0 && holds_face(twin / 3)) {
       const Complex from = flat_[refined_.from(side)], to = flat_[refined_.to(side)], behind = flat_[refined_.from(Halfedges::prev(twin))];
       const double share = w[(least + 2) % 3] / (1.0 - w[least]);
       if (thickness(from, behind, at) > kThin && thickness(at, behind, to) > kThin && share > 0.0 && share < 1.0)

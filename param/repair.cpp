@@ -44,25 +44,6 @@ void minimise(const DistortionEnergy& energy, double epsilon, int steps, std::ve
   if (std::all_of(moved.begin(), moved.end(), [](double v) { return std::isfinite(v); })) x = moved;
 }
 
-/// Drives ε to zero until all faces are upright.
-bool drive_apart(const DistortionEnergy& energy, std::vector<double>& x) {
-  double least = energy.least_determinant(x), epsilon = 1.0;
-  int idle = 0;
-  for (int step = 0; step < kOuterSteps && idle < kIdleSteps && !(least > 0.0); ++step) {
-    const double before = least;
-    // As Garanzha et al. choose it, but never slower than geometrically: a step that gains nothing sharpens the barrier.
-    epsilon = std::max(std::min(kSharpening * epsilon, std::sqrt(1e-18 + 0.04 * least * least)), 1e-7);
-    minimise(energy, epsilon, kInnerSteps, x);
-    least = energy.least_determinant(x);
-    idle = least > kDeterminantGain * before ? 0 : idle + 1;
-  }
-  if (!(least > 0.0)) return false;
-  const std::vector<double> valid = x;
-  minimise(energy, 1e-9, kLastSteps, x);
-  if (!energy.upright(x)) x = valid;
-  return energy.upright(x);
-}
-
 class Repair {
  public:
   Repair(Atlas& atlas, int most_rings, Progress& progress)
@@ -108,6 +89,9 @@ class Repair {
     const DistortionEnergy energy(atlas_, vertices, faces, reference_shapes(atlas_, faces), kAreaWeight);
     std::vector<double> x = energy.positions(atlas_);
     if (!drive_apart(energy, x)) return;
+    const std::vector<double> valid = x;
+    minimise(energy, 1e-9, kLastSteps, x);
+    if (!energy.upright(x)) x = valid;
     energy.write_back(x, atlas_);
     std::vector<int> touched;
     for (int f : faces)
@@ -128,6 +112,20 @@ class Repair {
 };
 
 }  // namespace
+
+bool drive_apart(const DistortionEnergy& energy, std::vector<double>& x) {
+  double least = energy.least_determinant(x), epsilon = 1.0;
+  int idle = 0;
+  for (int step = 0; step < kOuterSteps && idle < kIdleSteps && !(least > 0.0); ++step) {
+    const double before = least;
+    // As Garanzha et al. choose it, but never slower than geometrically: a step that gains nothing sharpens the barrier.
+    epsilon = std::max(std::min(kSharpening * epsilon, std::sqrt(1e-18 + 0.04 * least * least)), 1e-7);
+    minimise(energy, epsilon, kInnerSteps, x);
+    least = energy.least_determinant(x);
+    idle = least > kDeterminantGain * before ? 0 : idle + 1;
+  }
+  return least > 0.0 && energy.upright(x);
+}
 
 Folds repair_folds(Atlas& atlas, int most_rings, Progress& progress) {
   return Repair(atlas, most_rings, progress).run();

@@ -2,9 +2,13 @@
 
 #include "mesh/progress.h"
 #include "param/atlas.h"
+#include "param/distortion_energy.h"
 #include "param/folds.h"
 
 namespace gsp {
+
+/// Minimises the energy while ε is driven to zero, until every face is upright. False where some are not in the end.
+bool drive_apart(const DistortionEnergy& energy, std::vector<double>& x);
 
 /// Untangles folded faces: in the discs around them, with their rims, the boundary and all corners held, minimises
 /// `DistortionEnergy` while ε is driven to zero (Garanzha et al. 2021). The rest of the map stays bit for bit. A disc that

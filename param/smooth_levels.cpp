@@ -2,6 +2,7 @@
 
 #include "param/best_map.h"
 #include "param/descend_corners.h"
+#include "param/flip_edges.h"
 #include "param/lower_distortion.h"
 #include "param/reinsertion.h"
 #include "param/relax_corners.h"
@@ -21,27 +22,40 @@ int relax_or_descend(Atlas& atlas, const ParameterizeOptions& options) {
   return relax_corners(atlas, LinearWeights(*atlas.surface, options.weights), kRelaxationRadius, Folding::Refused);
 }
 
-/// The whole map at once. Returns how many relaxations were kept.
-int smooth_coarsest(RefinedMap& map, const ParameterizeOptions& options, bool finest, Progress& progress) {
+/// The whole map at once.
+SmoothingRecord smooth_coarsest(RefinedMap& map, const ParameterizeOptions& options, bool finest, Progress& progress) {
   const bool large = map.atlas.surface->mesh.vertex_count() > kWhole;
   if (large) lower_distortion_locally(map.atlas, kSweeps, progress);
   lower_distortion(map.atlas, kRoughly, progress);
   // Where the map has become smooth it needs fewer added vertices.
   map = coarsen(std::move(map));
   map.atlas.reassign_all();
-  BestMap best;
-  best.offer(map.atlas, 0);
-  for (int round = 1; round <= options.relaxations; ++round) {
-    if (relax_or_descend(map.atlas, options) == 0) break;
-    if (large)  // what the corners have changed is local
+  const auto lower_again = [&] {
+    if (large)  // what corners and base edges have changed is local
       lower_distortion_locally(map.atlas, kSweeps, progress);
     else
       lower_distortion(map.atlas, kRoughly, progress);
+  };
+  int flipped = 0;
+  const auto flip = [&] {
+    const int more = options.base_edges == BaseEdges::Flip ? flip_base_edges(map.atlas, progress) : 0;
+    if (more > 0) lower_again();
+    flipped += more;
+  };
+  flip();
+  BestMap best;
+  best.offer(map.atlas, 0);
+  std::vector<int> flipped_by{flipped};
+  for (int round = 1; round <= options.relaxations; ++round) {
+    if (relax_or_descend(map.atlas, options) == 0) break;
+    lower_again();
+    flip();
     best.offer(map.atlas, round);
+    flipped_by.push_back(flipped);
   }
   map.atlas = best.atlas();
   lower_distortion(map.atlas, finest ? kFinely : kRoughly, progress);
-  return best.round();
+  return {best.round(), flipped_by[best.round()]};
 }
 
 /// A map that a coarser level has made smooth on the large.
@@ -66,14 +80,14 @@ std::optional<SmoothedMap> smooth_levels(SimplifyResult simplified, const Parame
   RefinedMap map = std::move(*simplified.map).coarsened();
   map.atlas.reassign_all();
   std::vector<Decimation>& finer = simplified.finer;
-  const int kept = smooth_coarsest(map, options, finer.empty(), progress);
+  const SmoothingRecord record = smooth_coarsest(map, options, finer.empty(), progress);
   for (; !finer.empty(); finer.pop_back()) {
     std::optional<RefinedMap> more = reinsert(finer.back(), map);
     if (!more) return std::nullopt;
     map = std::move(*more);
     smooth_finer(map, options, progress);
   }
-  return SmoothedMap{std::move(map.atlas), kept};
+  return SmoothedMap{std::move(map.atlas), record};
 }
 
 }  // namespace gsp

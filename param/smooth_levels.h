@@ -7,14 +7,20 @@
 
 namespace gsp {
 
+/// What the coarsest level has seen and kept.
+struct SmoothingRecord {
+  int rounds = 0;         ///< corner relaxations
+  int edges_flipped = 0;  ///< of the base
+};
+
 struct SmoothedMap {
   Atlas atlas;
-  int rounds = 0;  ///< corner relaxations of the coarsest level that were kept
+  SmoothingRecord record;
 };
 
 /// Smooths the map of a simplification from its coarsest level to the finest: the energy of distortion is lowered over maps
-/// free of folds, and the corners are moved in turn with it as the options say, at most `options.relaxations` times on the
-/// coarsest level and once on every finer one. The energy knows nothing of patches, so its minimiser is as smooth across their
+/// free of folds, and the corners are moved and base edges flipped in turn with it as the options say, at most
+/// `options.relaxations` times on the coarsest level; on every finer one the corners are moved once. The energy knows nothing of patches, so its minimiser is as smooth across their
 /// edges as within them. Nothing where one level's map could not be followed by the next for rounding. Throws
 /// Error(Cancelled).
 std::optional<SmoothedMap> smooth_levels(SimplifyResult simplified, const ParameterizeOptions& options,

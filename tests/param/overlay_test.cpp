@@ -46,6 +46,7 @@ TEST_CASE("the levels of a simplification together make the same base as their r
   const auto surface = std::make_shared<const Surface>(mesh);
   ParameterizeOptions options;
   options.base_vertices = 20;
+  options.base_edges = BaseEdges::Keep;
   Progress progress;
   SimplifyResult made = simplify(surface, options, coarsest_level(*surface, options), progress);
   REQUIRE(made.finer.size() == 1);
