@@ -95,9 +95,10 @@ struct Structure {
                                 Visit visit) const {
     std::vector<Vec3> positions = dequantize_base(known, header);
     for (int l = 0; l < level; ++l) {
-      const std::vector<Frame> frames = edge_frames(levels[l], positions);
+      const EdgeFrames frames(levels[l], positions);
       std::vector<Vec3> details = dequantize_details(known, forest, l, header);
-      for (std::size_t e = 0; e < frames.size(); ++e) details[e] = frames[e] * details[e];
+      for (int e = 0; e < levels[l].edge_count(); ++e)
+        if (details[e] != Vec3::Zero()) details[e] = frames(e) * details[e];
       visit(positions);
       positions = transform.synthesis(l, std::move(positions), details);
     }
@@ -161,8 +162,8 @@ struct Source {
   BitplaneCoefficients quantized(const std::vector<std::vector<Vec3>>& seen, StreamHeader& result) const {
     std::vector<std::vector<Vec3>> local = details;
     for (std::size_t l = 0; l < local.size(); ++l) {
-      const std::vector<Frame> frames = edge_frames(structure.levels[l], seen[l]);
-      for (std::size_t e = 0; e < frames.size(); ++e) local[l][e] = frames[e].transpose() * local[l][e];
+      const EdgeFrames frames(structure.levels[l], seen[l]);
+      for (std::size_t e = 0; e < local[l].size(); ++e) local[l][e] = frames(e).transpose() * local[l][e];
     }
     return quantize(positions[0], local, diagonal, precision_bits(), result);
   }

@@ -98,14 +98,15 @@ ComponentUrgency surface_urgency(const std::vector<SubdivisionLevel>& levels, co
   if (!(total > 0.0 && std::isfinite(total))) return urgency;
   const double least = 1.0 / (tangential_ratio * tangential_ratio);
   for (int l = finest - 1; l >= 0; --l) {
-    const std::vector<Frame> frames = edge_frames(levels[l], positions[l]);
+    const EdgeFrames frames(levels[l], positions[l]);
     const double scale = levels[l].face_count() / total;
     for (int e = 0; e < levels[l].edge_count(); ++e) {
       const Moment m = support_moment(levels[l], moments, e) * scale;
       const double area = trace(m);
       const int n = forest.level_begin[l] + e;
       urgency[0][n] = urgency_of(area);
-      for (int c = 1; c < 3; ++c) urgency[c][n] = urgency_of(along(frames[e].col(c), m) + least * area);
+      const Frame frame = frames(e);
+      for (int c = 1; c < 3; ++c) urgency[c][n] = urgency_of(along(frame.col(c), m) + least * area);
     }
     if (l == 0) break;
     for (std::size_t f = 0; f < moments.size() / 4; ++f)

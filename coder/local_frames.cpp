@@ -32,21 +32,19 @@ Frame frame(const Vec3& normal, const Vec3& direction) {
 
 }  // namespace
 
-std::vector<Frame> edge_frames(const SubdivisionLevel& level, const std::vector<Vec3>& positions) {
-  std::vector<Vec3> normals(level.faces.size());
+EdgeFrames::EdgeFrames(const SubdivisionLevel& level, const std::vector<Vec3>& positions)
+    : level_(level), positions_(positions), normals_(level.faces.size()) {
   for (int f = 0; f < level.face_count(); ++f) {
     const Triangle& t = level.faces[f];
     const Vec3 n = (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]);
-    normals[f] = has_direction(n) ? Vec3(n.normalized()) : Vec3::Zero();
+    normals_[f] = has_direction(n) ? Vec3(n.normalized()) : Vec3::Zero();
   }
-  std::vector<Frame> frames;
-  frames.reserve(level.edges.size());
-  for (int e = 0; e < level.edge_count(); ++e) {
-    Vec3 normal = normals[level.edge_faces[e][0]];
-    if (level.edge_faces[e][1] >= 0) normal += normals[level.edge_faces[e][1]];
-    frames.push_back(frame(normal, positions[level.edges[e][1]] - positions[level.edges[e][0]]));
-  }
-  return frames;
+}
+
+Frame EdgeFrames::operator()(int e) const {
+  Vec3 normal = normals_[level_.edge_faces[e][0]];
+  if (level_.edge_faces[e][1] >= 0) normal += normals_[level_.edge_faces[e][1]];
+  return frame(normal, positions_[level_.edges[e][1]] - positions_[level_.edges[e][0]]);
 }
 
 }  // namespace gsp

@@ -56,18 +56,27 @@ class HighPass : public TapFilter<HighPass> {
 
   template <class Take>
   void for_each_tap(Take take) const {
-    for (int e = 0; e < level_.edge_count(); ++e) {
-      Column column{e, level_.edge_faces[e][1] >= 0 && distinct(e)};
-      if (level_.edge_faces[e][1] < 0)
-        boundary_taps(column);
-      else
-        interior_taps(column);
-      if (!column.distinct) balance(column);
-      for (int i = 0; i < column.size; ++i) take(column.taps[i].to, e, column.taps[i].weight);
-    }
+    for (int e = 0; e < level_.edge_count(); ++e) taps_of(e, take);
+  }
+
+  /// In a short prefix most details are zero, and finding the taps is most of the work.
+  void add(const Vec3* x, Vec3* y) const override {
+    for (int e = 0; e < level_.edge_count(); ++e)
+      if (x[e] != Vec3::Zero()) taps_of(e, [&](int to, int from, double weight) { y[to] += weight * x[from]; });
   }
 
  private:
+  template <class Take>
+  void taps_of(int e, Take take) const {
+    Column column{e, level_.edge_faces[e][1] >= 0 && distinct(e)};
+    if (level_.edge_faces[e][1] < 0)
+      boundary_taps(column);
+    else
+      interior_taps(column);
+    if (!column.distinct) balance(column);
+    for (int i = 0; i < column.size; ++i) take(column.taps[i].to, e, column.taps[i].weight);
+  }
+
   /// The taps of one edge.
   struct Column {
     struct Tap {

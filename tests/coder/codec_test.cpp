@@ -120,8 +120,9 @@ TEST_CASE("tangential components of a normal mesh cost less than a hundredth of 
                                    Wavelet::Butterfly);
   for (int l = 0; l < mesh.level; ++l) {
     std::vector<Vec3> details;
-    for (const Frame& frame : edge_frames(transform.levels()[l], mesh.positions))
-      details.push_back(frame.col(0) * ((random.uniform() - 0.5) * std::ldexp(0.2, -2 * l)));
+    const EdgeFrames frames(transform.levels()[l], mesh.positions);
+    for (int e = 0; e < transform.levels()[l].edge_count(); ++e)
+      details.push_back(frames(e).col(0) * ((random.uniform() - 0.5) * std::ldexp(0.2, -2 * l)));
     mesh.positions = transform.synthesis(l, std::move(mesh.positions), details);
   }
   EncodeOptions options;
