@@ -21,7 +21,10 @@ constexpr int interpolate(int offset) {
 constexpr Logistic::Tables make_tables() {
   Logistic::Tables tables{};
   constexpr int kLast = 2 * Logistic::kLargestLogit;
-  for (int i = 0; i <= kLast; ++i) tables.squash[i] = static_cast<std::uint16_t>(std::clamp(interpolate(i), 1, 65535));
+  for (int i = 0; i <= kLast; ++i) {
+    tables.squash[i] = static_cast<std::uint16_t>(std::clamp(interpolate(i), 1, 65535));
+    tables.safe_squash[i] = static_cast<std::uint16_t>(std::clamp(interpolate(i), 16, 65536 - 16));
+  }
   int i = 0;
   for (int p = 0; p < 4096; ++p) {
     while (i < kLast && tables.squash[i] < 16 * p + 8) ++i;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "coder/range_coder.h"
 
@@ -17,9 +16,14 @@ class Logistic {
     return tables.squash[std::clamp(logit, -kLargestLogit, kLargestLogit) + kLargestLogit];
   }
 
+  /// The same, at least 16 away from both ends: what a mixed model may be sure of.
+  static Probability safe_squash(int logit) {
+    return tables.safe_squash[std::clamp(logit, -kLargestLogit, kLargestLogit) + kLargestLogit];
+  }
+
   static constexpr int kLargestLogit = 11 * 256;
   struct Tables {
-    std::array<std::uint16_t, 2 * kLargestLogit + 1> squash;
+    std::array<std::uint16_t, 2 * kLargestLogit + 1> squash, safe_squash;
     std::array<std::int16_t, 4096> stretch;
   };
 
@@ -53,12 +57,13 @@ struct AdaptiveBit {
 
 /// One kind of decision, predicted by N contexts at once, whose opinions are weighed in the logistic domain by weights
 /// that are learned on line (Mahoney, "Adaptive weighing of context models for lossless data compression", 2005).
-template <int N>
+/// `Mixers`: number of weight sets; `Sizes`: number of values of each context.
+template <int Mixers, int... Sizes>
 class MixedModel {
  public:
-  /// `sizes`: number of values of each context; `mixers`: number of weight sets.
-  MixedModel(const std::array<int, N>& sizes, int mixers) : weights_(mixers) {
-    for (int i = 0; i < N; ++i) contexts_[i].resize(sizes[i]);
+  static constexpr int N = sizeof...(Sizes);
+
+  MixedModel() {
     for (auto& weights : weights_) weights.fill(65536 * 3 / (2 * N));
   }
 
@@ -70,12 +75,11 @@ class MixedModel {
     std::int64_t sum = 0;
     auto& weights = weights_[mixer];
     for (int i = 0; i < N; ++i) {
-      bits[i] = &contexts_[i][context[i]];
+      bits[i] = &contexts_[kFirst[i] + context[i]];
       logits[i] = Logistic::stretch(bits[i]->set);
       sum += static_cast<std::int64_t>(weights[i]) * logits[i];
     }
-    const Probability predicted =
-        std::clamp<Probability>(Logistic::squash(static_cast<int>(sum >> 16)), 16, 65536 - 16);
+    const Probability predicted = Logistic::safe_squash(static_cast<int>(sum >> 16));
     const bool bit = side.decide(actual, predicted);
     const int error = (bit ? 65535 : 0) - static_cast<int>(predicted);
     for (int i = 0; i < N; ++i) {
@@ -89,8 +93,15 @@ class MixedModel {
   static constexpr int kMemory = 400;
   static constexpr int kLearningShift = 1;
 
-  std::array<std::vector<AdaptiveBit>, N> contexts_;
-  std::vector<std::array<std::int32_t, N>> weights_;
+  static constexpr std::array<int, N> kFirst = [] {
+    constexpr std::array<int, N> kSizes = {Sizes...};
+    std::array<int, N> first{};
+    for (int i = 1; i < N; ++i) first[i] = first[i - 1] + kSizes[i - 1];
+    return first;
+  }();
+
+  std::array<AdaptiveBit, (Sizes + ...)> contexts_;  ///< all values of the first context, then those of the next
+  std::array<std::array<std::int32_t, N>, Mixers> weights_;
 };
 
 }  // namespace gsp

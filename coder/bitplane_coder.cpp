@@ -48,12 +48,20 @@ class BitplaneCoder {
     near_.assign(nodes, 0);
     open_.assign(nodes, 0);
     for (int c = 0; c < 3; ++c) {
-      known_.details[c].magnitude.assign(nodes, 0);
-      known_.details[c].negative.assign(nodes, 0);
-      known_.details[c].low_plane.assign(nodes, planes);
+      BitplaneCoefficients::Component& known = known_.details[c];
+      known.magnitude.assign(nodes, 0);
+      known.negative.assign(nodes, 0);
+      known.low_plane.assign(nodes, planes);
       ring_[c].assign(nodes + 1, 0);
       children_[c].assign(nodes, 0);
       tree_low_plane_[c].assign(nodes, planes);
+      lanes_[c] = {known.magnitude.data(),
+                   known.negative.data(),
+                   known.low_plane.data(),
+                   ring_[c].data() + 1,
+                   children_[c].data(),
+                   tree_low_plane_[c].data(),
+                   nullptr};
       bit_due_.emplace_back(nodes);
       tree_due_.emplace_back(nodes);
     }
@@ -70,9 +78,10 @@ class BitplaneCoder {
       for (int level = 0; level < forest_.levels(); ++level) {
         const int begin = forest_.level_begin[level], end = forest_.level_begin[level + 1];
         for (int c = 0; c < 3; ++c) {
-          bit_due_[c].for_each_due(begin, end, now, [&](int n) { code_bits(now, level, c, n); });
+          const Scene at = scene(level, c);
+          bit_due_[c].for_each_due(begin, end, now, [&, at](int n) { return code_bits(now, at, n); });
           if (level + 1 < layout_.levels)
-            tree_due_[c].for_each_due(begin, end, now, [&](int n) { code_trees(now, level, c, n); });
+            tree_due_[c].for_each_due(begin, end, now, [&, at](int n) { return code_trees(now, at, n); });
         }
       }
     }
@@ -84,6 +93,50 @@ class BitplaneCoder {
   using Due = DueList::Pass;
   static constexpr Due kNever = DueList::kNever;
   static_assert(kMaxUrgency > kNever && kPassesPerPlane * 31 + kMaxUrgency < 256);
+
+  /// What is known of one component, by node.
+  struct Lane {
+    std::uint32_t* magnitude;
+    std::uint8_t* negative;
+    std::uint8_t* low_plane;
+    std::uint32_t* ring;           ///< sums of magnitudes beside each; at kNone a 0
+    std::uint32_t* children;       ///< sums of the children's magnitudes
+    std::uint8_t* tree_low_plane;  ///< at and above it, a closed tree is known to be empty
+    const std::int8_t* urgency;
+  };
+
+  /// Where the coder is, and all that decisions there are made of: copied, so that it can stay in registers, where a
+  /// store of a byte cannot be taken to change it.
+  struct Scene {
+    int level, c;
+    Lane lane, other, third;
+    const int* parent;
+    const std::array<int, 4>*neighbours, *children;
+    std::uint8_t *near, *open;
+    DueList *bit_due, *tree_due;
+
+    bool is_near(int n) const { return near[n] >> c & 1; }
+    bool is_open(int n) const { return open[n] >> c & 1; }
+    /// Whether bits of a node are coded: all of the tree above it is open.
+    bool is_active(int n) const { return parent[n] < 0 || is_open(parent[n]); }
+    std::uint32_t parent_magnitude(int n) const { return parent[n] < 0 ? 0 : lane.magnitude[parent[n]]; }
+  };
+
+  Scene scene(int level, int c) {
+    const int other = c == 0 ? 1 : 0, third = 3 - c - other;
+    return {level,
+            c,
+            lanes_[c],
+            lanes_[other],
+            lanes_[third],
+            forest_.parent.data(),
+            forest_.neighbours.data(),
+            forest_.children.data(),
+            near_.data(),
+            open_.data(),
+            &bit_due_[c],
+            &tree_due_[c]};
+  }
 
   static int bit_of(int flags, int c) { return flags >> c & 1; }
 
@@ -129,164 +182,159 @@ class BitplaneCoder {
 
   void renew_urgency() {
     const std::array<std::vector<std::int8_t>, 3> old = std::exchange(urgency_, layout_.urgency(known_));
-    for (int c = 0; c < 3; ++c)
+    for (int c = 0; c < 3; ++c) {
+      lanes_[c].urgency = urgency_[c].data();
+      const Scene at = scene(0, c);
       for (int n = 0; n < forest_.nodes(); ++n)
-        if ((old[c].empty() || old[c][n] != urgency_[c][n]) && active(c, n)) schedule(c, n);
+        if ((old[c].empty() || old[c][n] != urgency_[c][n]) && at.is_active(n)) schedule(at, n);
+    }
   }
 
-  /// Whether bits of a node are coded: all of the tree above it is open.
-  bool active(int c, int n) const {
-    const int parent = forest_.parent[n];
-    return parent < 0 || bit_of(open_[parent], c);
-  }
-
-  Due due(int c, int n, int planes, int delay) const {
+  static Due due(const Scene& at, int n, int planes, int delay) {
     if (planes == 0) return kNever;
-    return static_cast<Due>(std::max<int>(kNever, kPassesPerPlane * (planes - 1) + urgency_[c][n] - delay));
+    return static_cast<Due>(std::max<int>(kNever, kPassesPerPlane * (planes - 1) + at.lane.urgency[n] - delay));
   }
 
-  void schedule_bit(int c, int n) { bit_due_[c].set(n, due(c, n, known_.details[c].low_plane[n], delay(c, n))); }
+  static Due bit_due(const Scene& at, int n) { return due(at, n, at.lane.low_plane[n], delay(at, n)); }
 
-  void schedule_tree(int c, int n) {
-    tree_due_[c].set(n, bit_of(open_[n], c) ? kNever : due(c, n, tree_low_plane_[c][n], kTreeDelay));
+  static Due tree_due(const Scene& at, int n) {
+    return at.is_open(n) ? kNever : due(at, n, at.lane.tree_low_plane[n], kTreeDelay);
   }
 
-  void schedule(int c, int n) {
-    schedule_bit(c, n);
-    schedule_tree(c, n);
+  static void schedule(const Scene& at, int n) {
+    at.bit_due->set(n, bit_due(at, n));
+    at.tree_due->set(n, tree_due(at, n));
   }
 
   /// Passes by which a node's bits wait, so that all bits of a pass save about as much error per bit spent: halving an
   /// interval costs a whole bit, and where nothing is significant yet, news are rare.
-  int delay(int c, int n) const {
-    if (known_.details[c].magnitude[n] != 0) return kRefinementDelay;
-    const int parent = forest_.parent[n];
-    const bool quiet = !bit_of(near_[n], c) && (parent < 0 || known_.details[c].magnitude[parent] == 0);
-    return quiet ? kQuietDelay : 0;
+  static int delay(const Scene& at, int n) {
+    if (at.lane.magnitude[n] != 0) return kRefinementDelay;
+    return !at.is_near(n) && at.parent_magnitude(n) == 0 ? kQuietDelay : 0;
   }
 
-  void code_bits(Due pass, int level, int c, int n) {
-    auto& known = known_.details[c];
-    Due due = bit_due_[c][n];
+  /// Codes the bits of a node that are due, and returns when the next one is.
+  Due code_bits(Due pass, const Scene& at, int n) {
+    Due due = (*at.bit_due)[n];
     while (due >= pass) {
-      const int plane = known.low_plane[n] - 1;
-      known.low_plane[n] = static_cast<std::uint8_t>(plane);
-      if (known.magnitude[n] != 0) {
-        refine(plane, c, n);
-      } else if (find_significant(plane, level, c, n)) {
-        schedule_bit(c, n);
-        tell_of_significance(level, c, n);
-        due = bit_due_[c][n];
+      const int plane = at.lane.low_plane[n] - 1;
+      at.lane.low_plane[n] = static_cast<std::uint8_t>(plane);
+      if (at.lane.magnitude[n] != 0) {
+        refine(plane, at, n);
+      } else if (find_significant(plane, at, n)) {
+        tell_of_significance(at, n);
+        due = bit_due(at, n);
         continue;
       }
       due = plane == 0 ? kNever : static_cast<Due>(std::max<int>(kNever, due - kPassesPerPlane));
     }
-    bit_due_[c].set(n, due);
+    return due;
   }
 
-  void code_trees(Due pass, int level, int c, int n) {
-    while (tree_due_[c][n] >= pass) {
-      const int plane = tree_low_plane_[c][n] - 1;
-      if (find_descendants(plane, level, c, n)) return open(level, c, n);
-      tree_low_plane_[c][n] = static_cast<std::uint8_t>(plane);
-      schedule_tree(c, n);
+  Due code_trees(Due pass, const Scene& at, int n) {
+    Due due = (*at.tree_due)[n];
+    while (due >= pass) {
+      const int plane = at.lane.tree_low_plane[n] - 1;
+      if (find_descendants(plane, at, n)) {
+        open(at, n);
+        return kNever;
+      }
+      at.lane.tree_low_plane[n] = static_cast<std::uint8_t>(plane);
+      due = tree_due(at, n);
     }
+    return due;
   }
 
   /// Beside anything significant, descendants are coded one by one, for their contexts say more than a tree could;
   /// elsewhere the stream says once for the whole tree that there are none.
-  void tell_of_significance(int level, int c, int n) {
-    open(level, c, n);
-    for (int w : forest_.neighbours[n]) {
-      if (w < 0) continue;
-      near_[w] |= 1 << c;
-      if (!active(c, w)) continue;
-      schedule_bit(c, w);
-      open(level, c, w);
+  void tell_of_significance(const Scene& at, int n) {
+    const bool was_open = at.is_open(n);
+    open(at, n);
+    for (int w : at.neighbours[n]) {
+      if (w < 0 || at.is_near(w)) continue;
+      at.near[w] |= 1 << at.c;
+      if (!at.is_active(w)) continue;
+      at.bit_due->set(w, bit_due(at, w));
+      open(at, w);
     }
-    for (int child : forest_.children[n])
-      if (child >= 0) schedule_bit(c, child);
+    if (!was_open) return;
+    for (int child : at.children[n])
+      if (child >= 0 && !at.is_near(child)) at.bit_due->set(child, bit_due(at, child));
   }
 
-  void open(int level, int c, int n) {
-    if (level + 1 >= layout_.levels || bit_of(open_[n], c)) return;
+  void open(Scene at, int n) {
+    if (at.level + 1 >= layout_.levels || at.is_open(n)) return;
     // What follows would speak of a level below the forest.
-    if (level + 1 == forest_.levels()) throw StreamEnd{};
-    open_[n] |= 1 << c;
-    tree_due_[c].set(n, kNever);
-    const std::uint8_t empty_from = tree_low_plane_[c][n];
-    for (int child : forest_.children[n]) {
+    if (at.level + 1 == forest_.levels()) throw StreamEnd{};
+    at.open[n] |= 1 << at.c;
+    at.tree_due->set(n, kNever);
+    const std::uint8_t empty_from = at.lane.tree_low_plane[n];
+    ++at.level;
+    for (int child : at.children[n]) {
       if (child < 0) continue;
-      known_.details[c].low_plane[child] = tree_low_plane_[c][child] = empty_from;
-      if (bit_of(near_[child], c)) open(level + 1, c, child);
-      schedule(c, child);
+      at.lane.low_plane[child] = at.lane.tree_low_plane[child] = empty_from;
+      if (at.is_near(child)) open(at, child);
+      schedule(at, child);
     }
   }
 
-  std::uint32_t ring(int c, int n) const { return ring_[c][n + 1]; }
-
-  std::uint32_t parent_magnitude(int c, int n) const {
-    const int parent = forest_.parent[n];
-    return parent < 0 ? 0 : known_.details[c].magnitude[parent];
-  }
-
-  void set_bit(int plane, int c, int n) {
+  static void set_bit(int plane, const Scene& at, int n) {
     const std::uint32_t bit = 1u << plane;
-    known_.details[c].magnitude[n] |= bit;
-    for (int w : forest_.neighbours[n])
-      if (w >= 0) ring_[c][w + 1] += bit;
-    if (forest_.parent[n] >= 0) children_[c][forest_.parent[n]] += bit;
+    at.lane.magnitude[n] |= bit;
+    for (int w : at.neighbours[n])
+      if (w >= 0) at.lane.ring[w] += bit;
+    if (at.parent[n] >= 0) at.lane.children[at.parent[n]] += bit;
   }
 
-  bool find_significant(int plane, int level, int c, int n) {
-    const int tangential = c != 0, o = c == 0 ? 1 : 0, q = 3 - c - o;
+  bool find_significant(int plane, const Scene& at, int n) {
+    const int c = at.c, tangential = c != 0;
     std::uint64_t rings = 0;
-    for (int w : forest_.neighbours[n]) rings += ring_[c][w + 1];
-    const std::uint64_t around = ring(c, n);
-    const std::uint64_t wide = 2 * around + parent_magnitude(c, n) + rings;
-    const std::uint64_t others_here = std::uint64_t{known_.details[o].magnitude[n]} + known_.details[q].magnitude[n];
-    const std::uint64_t others_around = std::uint64_t{ring(o, n)} + ring(q, n);
+    for (int w : at.neighbours[n]) rings += at.lane.ring[w];
+    const std::uint64_t around = at.lane.ring[n];
+    const std::uint64_t wide = 2 * around + at.parent_magnitude(n) + rings;
+    const std::uint64_t others_here = std::uint64_t{at.other.magnitude[n]} + at.third.magnitude[n];
+    const std::uint64_t others_around = std::uint64_t{at.other.ring[n]} + at.third.ring[n];
     const std::uint64_t all =
-        2 * wide + 2 * around + 4 * std::uint64_t{children_[c][n]} + others_here + others_around / 2;
+        2 * wide + 2 * around + 4 * std::uint64_t{at.lane.children[n]} + others_here + others_around / 2;
     const int w = octave(wide, plane, 10), cross = octave(2 * others_here + others_around, plane, 10);
     const int fine = half_octave(all, plane, 24);
     side_.count_as(&BitplaneParts::Component::significance, c);
     const bool bit = significance_model_.decide(
         side_, actual_ && (actual_->details[c].magnitude[n] >> plane & 1),
-        {tuple_index(c, 3, plane, 32, level, kLevels), tuple_index(tangential, 2, fine, 24, level, kLevels),
+        {tuple_index(c, 3, plane, 32, at.level, kLevels), tuple_index(tangential, 2, fine, 24, at.level, kLevels),
          tuple_index(c, 3, w, 10, cross, 10)},
         tangential);
     side_.note_significance(c, n);
     if (!bit) return false;
     side_.count_as(&BitplaneParts::Component::signs, c);
-    known_.details[c].negative[n] = side_.decide(actual_ && actual_->details[c].negative[n], 32768);
-    set_bit(plane, c, n);
+    at.lane.negative[n] = side_.decide(actual_ && actual_->details[c].negative[n], 32768);
+    set_bit(plane, at, n);
     return true;
   }
 
-  void refine(int plane, int c, int n) {
-    const int size = octave(known_.details[c].magnitude[n], plane + 3, 5);
-    const int a = octave(ring(c, n), plane, 8), p = octave(parent_magnitude(c, n), plane, 8);
-    side_.count_as(&BitplaneParts::Component::refinement, c);
-    const bool bit = refinement_model_.decide(side_, actual_ && (actual_->details[c].magnitude[n] >> plane & 1),
+  void refine(int plane, const Scene& at, int n) {
+    const int size = octave(at.lane.magnitude[n], plane + 3, 5);
+    const int a = octave(at.lane.ring[n], plane, 8), p = octave(at.parent_magnitude(n), plane, 8);
+    side_.count_as(&BitplaneParts::Component::refinement, at.c);
+    const bool bit = refinement_model_.decide(side_, actual_ && (actual_->details[at.c].magnitude[n] >> plane & 1),
                                               {tuple_index(size, 5, a, 8), tuple_index(size, 5, p, 8)}, 0);
-    if (bit) set_bit(plane, c, n);
+    if (bit) set_bit(plane, at, n);
   }
 
-  bool find_descendants(int plane, int level, int c, int n) {
-    const int tangential = c != 0, o = c == 0 ? 1 : 0, q = 3 - c - o;
-    const int p = octave(parent_magnitude(c, n), plane, 6);
+  bool find_descendants(int plane, const Scene& at, int n) {
+    const int c = at.c, tangential = c != 0, o = c == 0 ? 1 : 0, q = 3 - c - o;
+    const int p = octave(at.parent_magnitude(n), plane, 6);
     int open_neighbours = 0;
-    for (int w : forest_.neighbours[n])
-      if (w >= 0) open_neighbours += bit_of(open_[w], c);
-    const int open_components = bit_of(open_[n], o) + bit_of(open_[n], q);
+    for (int w : at.neighbours[n])
+      if (w >= 0) open_neighbours += at.is_open(w);
+    const int open_components = bit_of(at.open[n], o) + bit_of(at.open[n], q);
     const std::uint64_t others =
-        std::uint64_t{known_.details[o].magnitude[n]} + known_.details[q].magnitude[n] + ring(o, n) + ring(q, n);
+        std::uint64_t{at.other.magnitude[n]} + at.third.magnitude[n] + at.other.ring[n] + at.third.ring[n];
     side_.count_as(&BitplaneParts::Component::trees, c);
     return descendants_model_.decide(
         side_, actual_ && largest_[n][c] >> plane != 0,
         {tuple_index(tangential, 2, open_neighbours, 5, open_components, 3, octave(others, plane, 4), 4),
-         tuple_index(tangential, 2, p, 6, level, kLevels)},
+         tuple_index(tangential, 2, p, 6, at.level, kLevels)},
         tangential);
   }
 
@@ -296,11 +344,11 @@ class BitplaneCoder {
   Side& side_;
   BitplaneCoefficients known_;
   // What contexts are made of: kept up to date when a bit is set, since it is asked for many times as often.
-  std::array<std::vector<std::uint32_t>, 3> ring_;           ///< 1 + #N, a 0 and sums of magnitudes beside each
-  std::array<std::vector<std::uint32_t>, 3> children_;       ///< sum of the children's magnitudes
-  std::vector<std::uint8_t> near_;                           ///< bit c: an edge beside it is significant
-  std::vector<std::uint8_t> open_;                           ///< bit c: its descendants are coded one by one
-  std::array<std::vector<std::uint8_t>, 3> tree_low_plane_;  ///< at and above it, a closed tree is known to be empty
+  std::array<std::vector<std::uint32_t>, 3> ring_, children_;
+  std::array<std::vector<std::uint8_t>, 3> tree_low_plane_;
+  std::array<Lane, 3> lanes_;
+  std::vector<std::uint8_t> near_;  ///< bit c: an edge beside it is significant
+  std::vector<std::uint8_t> open_;  ///< bit c: its descendants are coded one by one
   std::vector<DueList> bit_due_, tree_due_;
   std::vector<std::array<std::uint32_t, 3>> largest_;  ///< encoder only: largest magnitudes of all descendants
   std::array<std::vector<std::int8_t>, 3> urgency_;
@@ -309,10 +357,10 @@ class BitplaneCoder {
   // Urgency is renewed while the surface still takes shape: later it hardly changes, and costs most.
   static constexpr int kPlanesPerUrgency = 2, kLastUrgency = kMaxUrgency + 8 * kPassesPerPlane;
   static constexpr int kLevels = kMaxSubdivisionLevel + 1;
-  MixedModel<4> base_model_{{16, 16 * 8, 32, 8 * 32}, 1};
-  MixedModel<3> significance_model_{{3 * 32 * kLevels, 2 * 24 * kLevels, 3 * 10 * 10}, 2};
-  MixedModel<2> refinement_model_{{5 * 8, 5 * 8}, 1};
-  MixedModel<2> descendants_model_{{2 * 5 * 3 * 4, 2 * 6 * kLevels}, 2};
+  MixedModel<1, 16, 16 * 8, 32, 8 * 32> base_model_;
+  MixedModel<2, 3 * 32 * kLevels, 2 * 24 * kLevels, 3 * 10 * 10> significance_model_;
+  MixedModel<1, 5 * 8, 5 * 8> refinement_model_;
+  MixedModel<2, 2 * 5 * 3 * 4, 2 * 6 * kLevels> descendants_model_;
 };
 
 }  // namespace

@@ -28,8 +28,8 @@ class DueList {
     latest = std::max(latest, pass);
   }
 
-  /// Visits in order all i in [begin, end) that are due in `pass` > kNever or were before. What falls due inside a
-  /// block that has been begun waits for the next pass.
+  /// Visits in order all i in [begin, end) that are due in `pass` > kNever or were before; visit(i) returns when i is
+  /// due next. What falls due inside a block that has been begun waits for the next pass.
   template <class Visit>
   void for_each_due(int begin, int end, Pass pass, Visit visit) {
     for (int block = begin / kBlock; block * kBlock < end; ++block) {
@@ -39,7 +39,11 @@ class DueList {
       if (first < begin) now &= ~0u << (begin - first);
       if (end - first < kBlock) now &= (1u << (end - first)) - 1;
       if (now == 0) continue;
-      for (; now != 0; now &= now - 1) visit(first + std::countr_zero(now));
+      for (; now != 0; now &= now - 1) {
+        const int i = first + std::countr_zero(now);
+        const Pass next = visit(i);
+        due_[i] = next;
+      }
       Pass latest = kNever;
       for (int i = 0; i < kBlock; ++i) latest = std::max(latest, due_[first + i]);
       latest_[block] = latest;

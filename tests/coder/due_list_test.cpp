@@ -26,7 +26,7 @@ TEST_CASE("a due list visits what is due, in order, and nothing else") {
       if (i >= begin && i < end && when >= pass) due.push_back(i);
     list.for_each_due(begin, end, static_cast<DueList::Pass>(pass), [&](int i) {
       visited.push_back(i);
-      list.set(i, DueList::kNever);
+      return DueList::kNever;
     });
     for (int i : due) expected[i] = DueList::kNever;
     REQUIRE(visited == due);
@@ -41,7 +41,7 @@ TEST_CASE("what is put off in a visit comes back in its pass") {
     list.for_each_due(0, 64, static_cast<DueList::Pass>(pass), [&](int i) {
       CHECK(list[i] == pass);
       ++visits[i];
-      list.set(i, static_cast<DueList::Pass>(pass / 2));
+      return static_cast<DueList::Pass>(pass / 2);
     });
   // From i + 1, halved until nothing is left.
   for (int i = 0; i < 64; ++i) CHECK(visits[i] == static_cast<int>(std::bit_width(static_cast<unsigned>(i + 1))));
