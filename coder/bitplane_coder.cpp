@@ -55,13 +55,9 @@ class BitplaneCoder {
       ring_[c].assign(nodes + 1, 0);
       children_[c].assign(nodes, 0);
       tree_low_plane_[c].assign(nodes, planes);
-      lanes_[c] = {known.magnitude.data(),
-                   known.negative.data(),
-                   known.low_plane.data(),
-                   ring_[c].data() + 1,
-                   children_[c].data(),
-                   tree_low_plane_[c].data(),
-                   nullptr};
+      urgency_[c].assign(nodes, 0);
+      lanes_[c] = {known.magnitude.data(), known.negative.data(),     known.low_plane.data(), ring_[c].data() + 1,
+                   children_[c].data(),    tree_low_plane_[c].data(), urgency_[c].data()};
       bit_due_.emplace_back(nodes);
       tree_due_.emplace_back(nodes);
     }
@@ -181,13 +177,24 @@ class BitplaneCoder {
   }
 
   void renew_urgency() {
-    const std::array<std::vector<std::int8_t>, 3> old = std::exchange(urgency_, layout_.urgency(known_));
-    for (int c = 0; c < 3; ++c) {
-      lanes_[c].urgency = urgency_[c].data();
-      const Scene at = scene(0, c);
-      for (int n = 0; n < forest_.nodes(); ++n)
-        if ((old[c].empty() || old[c][n] != urgency_[c][n]) && at.is_active(n)) schedule(at, n);
+    node_urgency_ = layout_.urgency(known_);
+    const bool first = urgency_is_new_.empty();
+    urgency_is_new_.assign(forest_.nodes(), false);
+    const std::array<Scene, 3> at = {scene(0, 0), scene(0, 1), scene(0, 2)};
+    for (int n = 0; n < forest_.nodes(); ++n) {
+      if (forest_.parent[n] >= 0 && open_[forest_.parent[n]] == 0) continue;
+      const std::array<std::int8_t, 3> old = {urgency_[0][n], urgency_[1][n], urgency_[2][n]};
+      find_urgency(n);
+      for (int c = 0; c < 3; ++c)
+        if ((first || urgency_[c][n] != old[c]) && at[c].is_active(n)) schedule(at[c], n);
     }
+  }
+
+  /// Only of nodes whose bits are coded: until late in the stream these are few.
+  void find_urgency(int n) {
+    const std::array<std::int8_t, 3> urgency = node_urgency_(n);
+    for (int c = 0; c < 3; ++c) urgency_[c][n] = urgency[c];
+    urgency_is_new_[n] = true;
   }
 
   static Due due(const Scene& at, int n, int planes, int delay) {
@@ -272,6 +279,7 @@ class BitplaneCoder {
     ++at.level;
     for (int child : at.children[n]) {
       if (child < 0) continue;
+      if (!urgency_is_new_[child]) find_urgency(child);
       at.lane.low_plane[child] = at.lane.tree_low_plane[child] = empty_from;
       if (at.is_near(child)) open(at, child);
       schedule(at, child);
@@ -351,7 +359,9 @@ class BitplaneCoder {
   std::vector<std::uint8_t> open_;  ///< bit c: its descendants are coded one by one
   std::vector<DueList> bit_due_, tree_due_;
   std::vector<std::array<std::uint32_t, 3>> largest_;  ///< encoder only: largest magnitudes of all descendants
+  NodeUrgency node_urgency_;                           ///< since the last renewal
   std::array<std::vector<std::int8_t>, 3> urgency_;
+  std::vector<std::uint8_t> urgency_is_new_;  ///< not that of before the last renewal
 
   static constexpr int kBaseDelay = 2, kRefinementDelay = 3, kQuietDelay = 2, kTreeDelay = 2;
   // Urgency is renewed while the surface still takes shape: later it hardly changes, and costs most.

@@ -31,10 +31,11 @@ inline constexpr int kPassesPerPlane = 4;
 /// Offsets of a node's bits against the order of planes.
 inline constexpr int kMaxUrgency = 2 * kPassesPerPlane, kMinUrgency = -6 * kPassesPerPlane;
 
-/// For each component #N in 1/kPassesPerPlane of a plane: how much earlier than others a node's bits are worth sending,
-/// kMinUrgency..kMaxUrgency. A function of what is known so far, which both sides evaluate at the same places of the
-/// stream.
-using Urgency = std::function<std::array<std::vector<std::int8_t>, 3>(const BitplaneCoefficients& known)>;
+/// For each component in 1/kPassesPerPlane of a plane: how much earlier than others a node's bits are worth sending,
+/// kMinUrgency..kMaxUrgency.
+using NodeUrgency = std::function<std::array<std::int8_t, 3>(int node)>;
+/// A function of what is known so far, which both sides ask for at the same places of the stream.
+using Urgency = std::function<NodeUrgency(const BitplaneCoefficients& known)>;
 
 /// What encoder and decoder must agree on besides the forest.
 struct BitplaneLayout {

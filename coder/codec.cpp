@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include "coder/bitplane_coder.h"
@@ -121,7 +122,9 @@ struct Structure {
       const int finest = std::min(importance_level(header), finest_significant_level(known, forest) + 2);
       positions.push_back(
           reconstruct(known, finest, header, [&](const std::vector<Vec3>& p) { positions.push_back(p); }));
-      return surface_urgency(levels, forest, positions, header.tangential_ratio);
+      const auto urgency =
+          std::make_shared<SurfaceUrgency>(levels, forest, std::move(positions), header.tangential_ratio);
+      return [urgency](int node) { return urgency->of(node); };
     };
     return layout;
   }

@@ -13,8 +13,7 @@ namespace gsp {
 
 namespace {
 
-/// A symmetric matrix: xx, yy, zz, xy, xz, yz.
-using Moment = Eigen::Matrix<double, 6, 1>;
+using Moment = SurfaceUrgency::Moment;
 
 Moment products(const Vec3& v) {
   Moment m;
@@ -86,36 +85,36 @@ Moment support_moment(const SubdivisionLevel& level, const std::vector<Moment>& 
 
 }  // namespace
 
-ComponentUrgency surface_urgency(const std::vector<SubdivisionLevel>& levels, const EdgeForest& forest,
-                                 const std::vector<std::vector<Vec3>>& positions, int tangential_ratio) {
-  ComponentUrgency urgency;
-  for (auto& component : urgency) component.assign(forest.nodes(), 0);
-  const int finest = static_cast<int>(positions.size()) - 1;
-  if (finest == 0) return urgency;
-  std::vector<Moment> moments = quadrisected_moments(levels[finest - 1], positions[finest]);
-  double total = 0.0;
-  for (const Moment& m : moments) total += trace(m);
-  if (!(total > 0.0 && std::isfinite(total))) return urgency;
-  const double least = 1.0 / (tangential_ratio * tangential_ratio);
-  for (int l = finest - 1; l >= 0; --l) {
-    const EdgeFrames frames(levels[l], positions[l]);
-    const double scale = levels[l].face_count() / total;
-    for (int e = 0; e < levels[l].edge_count(); ++e) {
-      const Moment m = support_moment(levels[l], moments, e) * scale;
-      const double area = trace(m);
-      const int n = forest.level_begin[l] + e;
-      urgency[0][n] = urgency_of(area);
-      const Frame frame = frames(e);
-      for (int c = 1; c < 3; ++c) urgency[c][n] = urgency_of(along(frame.col(c), m) + least * area);
-    }
-    if (l == 0) break;
-    for (std::size_t f = 0; f < moments.size() / 4; ++f)
-      moments[f] = moments[4 * f] + moments[4 * f + 1] + moments[4 * f + 2] + moments[4 * f + 3];
-    moments.resize(moments.size() / 4);
+SurfaceUrgency::SurfaceUrgency(const std::vector<SubdivisionLevel>& levels, const EdgeForest& forest,
+                               std::vector<std::vector<Vec3>> positions, int tangential_ratio)
+    : levels_(levels),
+      forest_(forest),
+      positions_(std::move(positions)),
+      least_(1.0 / (tangential_ratio * tangential_ratio)),
+      finest_(static_cast<int>(positions_.size()) - 1),
+      moments_(finest_) {
+  if (finest_ == 0) return;
+  moments_[finest_ - 1] = quadrisected_moments(levels[finest_ - 1], positions_[finest_]);
+  for (const Moment& m : moments_[finest_ - 1]) total_ += trace(m);
+  for (int l = finest_ - 1; l > 0; --l) {
+    const std::vector<Moment>& fine = moments_[l];
+    for (std::size_t f = 0; f < fine.size(); f += 4)
+      moments_[l - 1].push_back(fine[f] + fine[f + 1] + fine[f + 2] + fine[f + 3]);
   }
-  for (auto& component : urgency)
-    for (int n = forest.level_begin[finest]; n < forest.nodes(); ++n) component[n] = component[forest.parent[n]];
-  return urgency;
+  for (int l = 0; l < finest_; ++l) frames_.emplace_back(levels[l], positions_[l]);
+}
+
+std::array<std::int8_t, 3> SurfaceUrgency::of(int node) const {
+  if (!(total_ > 0.0 && std::isfinite(total_))) return {0, 0, 0};
+  while (node >= forest_.level_begin[finest_]) node = forest_.parent[node];
+  int l = 0;
+  while (node >= forest_.level_begin[l + 1]) ++l;
+  const int e = node - forest_.level_begin[l];
+  const Moment m = support_moment(levels_[l], moments_[l], e) * (levels_[l].face_count() / total_);
+  const double area = trace(m);
+  const Frame frame = frames_[l](e);
+  return {urgency_of(area), urgency_of(along(frame.col(1), m) + least_ * area),
+          urgency_of(along(frame.col(2), m) + least_ * area)};
 }
 
 }  // namespace gsp
