@@ -13,17 +13,20 @@ namespace gsp {
 
 namespace {
 
-/// Octave of a magnitude < 2^62 in quarters of the plane's threshold: 0, 1, 2-3, 4-7, ...
+/// std::bit_width for x < 2^63, which needs no branch for 0.
+int bit_width(std::uint64_t x) { return 63 - std::countl_zero(2 * x + 1); }
+
+/// Octave of a magnitude < 2^60 in quarters of the plane's threshold: 0, 1, 2-3, 4-7, ...
 int octave(std::uint64_t magnitude, int plane, int classes) {
-  return std::clamp(static_cast<int>(std::bit_width(4 * magnitude)) - plane, 0, classes - 1);
+  return std::min(bit_width(4 * magnitude >> plane), classes - 1);
 }
 
 /// Half octaves: 0, 1, 2, 3, 4-5, 6-7, 8-11, ...
 int half_octave(std::uint64_t magnitude, int plane, int classes) {
-  const int bits = static_cast<int>(std::bit_width(4 * magnitude)), width = bits - plane;
-  if (width < 2) return std::max(width, 0);
-  const int second = static_cast<int>(4 * magnitude >> (bits - 2) & 1);
-  return std::min(2 * width - 2 + second, classes - 1);
+  const std::uint64_t quarters = 4 * magnitude >> plane;
+  const int width = bit_width(quarters);
+  const int half_octaves = 2 * width - 4 + static_cast<int>(4 * quarters >> width);
+  return quarters < 2 ? static_cast<int>(quarters) : std::min(half_octaves, classes - 1);
 }
 
 /// Index of a tuple of values into a table of the given extents, and the size of that table.
@@ -45,6 +48,7 @@ class BitplaneCoder {
     known_.base.assign(vertices, {0, 0, 0});
     known_.base_low_plane.assign(vertices, {});
     for (auto& low : known_.base_low_plane) low.fill(layout.base_planes);
+    strength_.assign(nodes, 0);
     near_.assign(nodes, 0);
     open_.assign(nodes, 0);
     for (int c = 0; c < 3; ++c) {
@@ -108,6 +112,7 @@ class BitplaneCoder {
     Lane lane, other, third;
     const int* parent;
     const std::array<int, 4>*neighbours, *children;
+    std::uint32_t* strength;
     std::uint8_t *near, *open;
     DueList *bit_due, *tree_due;
 
@@ -128,6 +133,7 @@ class BitplaneCoder {
             forest_.parent.data(),
             forest_.neighbours.data(),
             forest_.children.data(),
+            strength_.data(),
             near_.data(),
             open_.data(),
             &bit_due_[c],
@@ -289,8 +295,12 @@ class BitplaneCoder {
   static void set_bit(int plane, const Scene& at, int n) {
     const std::uint32_t bit = 1u << plane;
     at.lane.magnitude[n] |= bit;
-    for (int w : at.neighbours[n])
-      if (w >= 0) at.lane.ring[w] += bit;
+    at.strength[n] += 2 * bit;
+    for (int w : at.neighbours[n]) {
+      if (w < 0) continue;
+      at.lane.ring[w] += bit;
+      at.strength[w] += bit;
+    }
     if (at.parent[n] >= 0) at.lane.children[at.parent[n]] += bit;
   }
 
@@ -300,11 +310,10 @@ class BitplaneCoder {
     for (int w : at.neighbours[n]) rings += at.lane.ring[w];
     const std::uint64_t around = at.lane.ring[n];
     const std::uint64_t wide = 2 * around + at.parent_magnitude(n) + rings;
-    const std::uint64_t others_here = std::uint64_t{at.other.magnitude[n]} + at.third.magnitude[n];
-    const std::uint64_t others_around = std::uint64_t{at.other.ring[n]} + at.third.ring[n];
-    const std::uint64_t all =
-        2 * wide + 2 * around + 4 * std::uint64_t{at.lane.children[n]} + others_here + others_around / 2;
-    const int w = octave(wide, plane, 10), cross = octave(2 * others_here + others_around, plane, 10);
+    // Nothing of this component is significant here yet.
+    const std::uint64_t others = at.strength[n] - at.lane.ring[n];
+    const std::uint64_t all = 2 * wide + 2 * around + 4 * std::uint64_t{at.lane.children[n]} + others / 2;
+    const int w = octave(wide, plane, 10), cross = octave(others, plane, 10);
     const int fine = half_octave(all, plane, 24);
     side_.count_as(&BitplaneParts::Component::significance, c);
     const bool bit = significance_model_.decide(
@@ -355,8 +364,9 @@ class BitplaneCoder {
   std::array<std::vector<std::uint32_t>, 3> ring_, children_;
   std::array<std::vector<std::uint8_t>, 3> tree_low_plane_;
   std::array<Lane, 3> lanes_;
-  std::vector<std::uint8_t> near_;  ///< bit c: an edge beside it is significant
-  std::vector<std::uint8_t> open_;  ///< bit c: its descendants are coded one by one
+  std::vector<std::uint32_t> strength_;  ///< of all components: twice the magnitude and those beside it
+  std::vector<std::uint8_t> near_;       ///< bit c: an edge beside it is significant
+  std::vector<std::uint8_t> open_;       ///< bit c: its descendants are coded one by one
   std::vector<DueList> bit_due_, tree_due_;
   std::vector<std::array<std::uint32_t, 3>> largest_;  ///< encoder only: largest magnitudes of all descendants
   NodeUrgency node_urgency_;                           ///< since the last renewal
