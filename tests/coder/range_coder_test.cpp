@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "coder/bit_model.h"
+#include "coder/context_values.h"
 #include "mesh/random.h"
 
 using namespace gsp;
@@ -80,5 +81,23 @@ TEST_CASE("stretch and squash are inverse to their resolution") {
     const Probability p = Logistic::squash(logit);
     CHECK(std::abs(p / 65536.0 - 1.0 / (1.0 + std::exp(-logit / 256.0))) < 0.008);
     if (std::abs(logit) < 1200) CHECK(std::abs(Logistic::stretch(p) - logit) < 64);
+  }
+}
+
+TEST_CASE("octaves and half octaves start where they say") {
+  // The first of each class, in quarters of the threshold.
+  const std::uint64_t octaves[] = {0, 1, 2, 4, 8, 16}, half_octaves[] = {0, 1, 2, 3, 4, 6, 8, 12, 16};
+  for (int plane : {2, 7, 30}) {
+    const std::uint64_t quarter = std::uint64_t{1} << (plane - 2);
+    for (int k = 1; k < 6; ++k) {
+      CHECK(octave(octaves[k] * quarter, plane, 20) == k);
+      CHECK(octave(octaves[k] * quarter - 1, plane, 20) == k - 1);
+    }
+    for (int k = 1; k < 9; ++k) {
+      CHECK(half_octave(half_octaves[k] * quarter, plane, 20) == k);
+      CHECK(half_octave(half_octaves[k] * quarter - 1, plane, 20) == k - 1);
+    }
+    CHECK(octave(100 * quarter, plane, 3) == 2);
+    CHECK(half_octave(100 * quarter, plane, 3) == 2);
   }
 }
