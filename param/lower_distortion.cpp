@@ -47,7 +47,7 @@ namespace {
 
 constexpr int kBlock = 2000;     // vertices
 constexpr int kOverlap = 3;      // rings around a block that are solved with it
-constexpr int kBlockSteps = 4;
+constexpr int kBlockSteps = 12;
 constexpr double kBlockGain = 1e-3;  // share of a block's energy
 
 /// The free vertices in connected blocks, each in the order in which it grew.

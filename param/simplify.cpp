@@ -25,7 +25,7 @@ struct Entry {
 
 constexpr int kRatio = 8;  // most vertices of one level for each of the next
 constexpr int kAutomaticRatio = 16;  // vertices for each of the coarsest level, where the base's size is not known
-constexpr int kSmallestLevel = 4000;
+constexpr int kSmallestLevel = 1000;
 constexpr int kBatchShare = 64;  // vertices of the complex for each of those that are priced side by side
 constexpr int kBlocks = 8, kLargestBlock = 16;  // of such a batch
 constexpr int kLevelPerBase = 16;  // vertices of the coarsest level for each of the base

@@ -61,16 +61,10 @@ SmoothingRecord smooth_coarsest(RefinedMap& map, const ParameterizeOptions& opti
 /// A map that a coarser level has made smooth on the large.
 void smooth_finer(RefinedMap& map, const ParameterizeOptions& options, Progress& progress) {
   map.atlas.reassign_all();
+  if (options.relaxations > 0) relax_or_descend(map.atlas, options);
   lower_distortion_locally(map.atlas, kSweeps, progress);
   map = coarsen(std::move(map));
   map.atlas.reassign_all();
-  if (options.relaxations == 0) return;
-  BestMap best;
-  best.offer(map.atlas, 0);
-  relax_or_descend(map.atlas, options);
-  lower_distortion_locally(map.atlas, kSweeps, progress);
-  best.offer(map.atlas, 1);
-  map.atlas = best.atlas();
 }
 
 }  // namespace
