@@ -21,6 +21,7 @@ constexpr double kAreaWeight = 1.0;
 constexpr double kIsometry = 1.0 + kAreaWeight;  // energy by area
 constexpr double kWorthwhile = 0.99;  // of the energy above an isometry's, that a flip has to fall below
 constexpr double kLoss = 0.5;         // of shape that the affine map may cost, which smoothing has to win back
+constexpr int kApartSteps = 20;         // of L-BFGS for each ε, where the affine map has folds
 constexpr int kDescentSteps = 8;              // of the descent at most
 constexpr double kLeastStepGain = 3e-3;     // that ends it
 constexpr double kStepsAhead = 4.0;    // as good as the last, with which the goal must come within reach
@@ -188,7 +189,7 @@ DistortionEnergy Flipper::energy_around(const std::vector<int>& vertices) const 
 bool Flipper::lower_to(double goal, const std::vector<int>& vertices) {
   const DistortionEnergy around = energy_around(vertices);
   std::vector<double> x = around.positions(atlas_);
-  if (!around.upright(x) && !drive_apart(around, x)) return false;
+  if (!around.upright(x) && !drive_apart(around, x, kApartSteps)) return false;
   lower_peaks(around, x);
   NewtonDescent descent(around, x);
   for (int i = 0; i < kDescentSteps; ++i) {

@@ -14,7 +14,7 @@ namespace gsp {
 
 namespace {
 
-constexpr int kRings = 2;  // around a hole, that are moved to give it room, doubled with every attempt
+constexpr int kRings = 1;  // around a hole, that are moved to give it room, doubled with every attempt
 constexpr int kAttempts = 2;
 constexpr int kSteps = 8;
 constexpr double kRoom = 10.0;      // weight of the hole's shape over the shapes around it, to the power of the attempt

@@ -88,7 +88,7 @@ class Repair {
     for (int v : vertices) before.push_back(atlas_.position[v]);
     const DistortionEnergy energy(atlas_, vertices, faces, reference_shapes(atlas_, faces), kAreaWeight);
     std::vector<double> x = energy.positions(atlas_);
-    if (!drive_apart(energy, x)) return;
+    if (!drive_apart(energy, x, kInnerSteps)) return;
     const std::vector<double> valid = x;
     minimise(energy, 1e-9, kLastSteps, x);
     if (!energy.upright(x)) x = valid;
@@ -113,14 +113,14 @@ class Repair {
 
 }  // namespace
 
-bool drive_apart(const DistortionEnergy& energy, std::vector<double>& x) {
+bool drive_apart(const DistortionEnergy& energy, std::vector<double>& x, int inner_steps) {
   double least = energy.least_determinant(x), epsilon = 1.0;
   int idle = 0;
   for (int step = 0; step < kOuterSteps && idle < kIdleSteps && !(least > 0.0); ++step) {
     const double before = least;
     // As Garanzha et al. choose it, but never slower than geometrically: a step that gains nothing sharpens the barrier.
     epsilon = std::max(std::min(kSharpening * epsilon, std::sqrt(1e-18 + 0.04 * least * least)), 1e-7);
-    minimise(energy, epsilon, kInnerSteps, x);
+    minimise(energy, epsilon, inner_steps, x);
     least = energy.least_determinant(x);
     idle = least > kDeterminantGain * before ? 0 : idle + 1;
   }

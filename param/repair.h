@@ -7,8 +7,9 @@
 
 namespace gsp {
 
-/// Minimises the energy while ε is driven to zero, until every face is upright. False where some are not in the end.
-bool drive_apart(const DistortionEnergy& energy, std::vector<double>& x);
+/// Minimises the energy while ε is driven to zero, with so many steps of L-BFGS for each, until every face is upright. False
+/// where some are not in the end.
+bool drive_apart(const DistortionEnergy& energy, std::vector<double>& x, int inner_steps);
 
 /// Untangles folded faces: in the discs around them, with their rims, the boundary and all corners held, minimises
 /// `DistortionEnergy` while ε is driven to zero (Garanzha et al. 2021). The rest of the map stays bit for bit. A disc that
