@@ -49,7 +49,7 @@ TEST_CASE("the levels of a simplification together make the same base as their r
   options.base_edges = BaseEdges::Keep;
   Progress progress;
   SimplifyResult made = simplify(surface, options, coarsest_level(*surface, options), progress);
-  REQUIRE(made.finer.size() == 1);
+  REQUIRE(made.finer.size() == 2);
   CHECK(remaining_vertices(*surface, made.removals).size() == 20);
   const Atlas maps = maps_of(made);
   const std::optional<SmoothedMap> smooth = smooth_levels(std::move(made), options, progress);
