@@ -51,7 +51,7 @@ void add_curve(CLI::App& app, Context& context) {
   auto options = std::make_shared<CurveArguments>();
   command.arguments("MESH", options->meshes, "surfaces, or folders of them: PLY, OBJ, OFF, STL");
   command.output("DIR", options->output, "folder for curve.csv and the figures");
-  command.choices("--methods", options->methods, map_method_words(), "maps to compare on one base complex");
+  command.choices("--methods", options->methods, map_method_words(), "maps to compare on the base vertices of one simplification");
   command.parameterize_options(options->curve.parameterize);
   command.remesh_options(options->curve.remesh);
   command.encode_options(options->wavelet, options->curve.encode);

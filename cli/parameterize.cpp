@@ -80,7 +80,7 @@ void add_parameterize(CLI::App& app, Context& context) {
   auto options = std::make_shared<ParameterizeArguments>();
   command.argument("MESH", options->mesh, "surface: PLY, OBJ, OFF or STL");
   command.output("MAP", options->output, "the map, *.param.ply");
-  command.choice("--method", options->method, map_method_words(), "the paper's map, or a baseline on the same base");
+  command.choice("--method", options->method, map_method_words(), "the paper's map, or a baseline on the same base vertices");
   command.parameterize_options(options->parameterize);
   command.optional_file("--omega-csv", options->omega_csv, "also write the cost of every vertex removal (figure 5d)");
   command.optional_file("--omega-plot", options->omega_plot,

@@ -51,7 +51,7 @@ struct CurveOptions {
   std::function<void(const CurveRun&)> on_progress;
 };
 
-/// The main job on one surface: parameterize by every method on one base complex, remesh, encode by every mode, decode at
+/// The main job on one surface: parameterize by every method after one simplification, remesh, encode by every mode, decode at
 /// each budget, measure against the input; then the anchors. Budgets that do not hold a stream's header are left out.
 /// Throws what its stages throw.
 CurveRun rate_distortion_curve(const Mesh& mesh, const std::string& model, const CurveOptions& options,

@@ -161,7 +161,8 @@ class Report {
             {{"model", cell.model}, {"label", cell.label}, {"cause", cell.cause}, {"failure", cell.failure}});
     for (const RunFigure& f : figures) pictures.push_back({{"png", f.png}, {"svg", f.svg}, {"caption", f.caption}});
     return {{"name", run_.name},
-            {"about", fmt::format("{} models, {} cells, gsp {}", run_.models.size(), run_.cells.size(), version())},
+            {"about", fmt::format("{} model{}, {} cells, gsp {}", run_.models.size(),
+                                  run_.models.size() == 1 ? "" : "s", run_.cells.size(), version())},
             {"reference", result_.findings.reference},
             {"sentences", result_.findings.sentences},
             {"levels_db", kTableLevelsDb},
