@@ -21,7 +21,9 @@ namespace gsp {
 
 namespace {
 
-constexpr int kAutomaticShare = 64;         // vertices per base vertex, of which the automatic stop falls short or not
+// An automatic base is taken to have a vertex for so many of the surface, but of a finely sampled one at most so many times the
+// root of their number: the sampling does not make it more detailed.
+constexpr double kAutomaticShare = 64.0, kAutomaticRoot = 3.0;
 constexpr int kPairPasses = 3;              // of the hybrid baseline; more bring it nearer to the global solution
 constexpr int kLargerLevel = 4;             // than the last level that could not be joined
 constexpr double kLongestEdge = 0.25;       // of the edge of an equilateral patch of mean area
@@ -76,7 +78,8 @@ Atlas smooth_map(const Start& start, const ParameterizeOptions& options, Paramet
 
 /// Edge of the equilateral triangle as large as a patch on average, for so many base vertices.
 double patch_edge(const Mesh& mesh, int base_vertices) {
-  const double patches = 2.0 * std::max(base_vertices > 0 ? base_vertices : mesh.vertex_count() / kAutomaticShare, 4);
+  const double count = mesh.vertex_count(), expected = std::min(count / kAutomaticShare, kAutomaticRoot * std::sqrt(count));
+  const double patches = 2.0 * std::max(base_vertices > 0 ? base_vertices : expected, 4.0);
   return std::sqrt(surface_area(mesh) / patches / kChartArea);
 }
 
