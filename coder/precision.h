@@ -7,7 +7,7 @@
 
 namespace gsp {
 
-/// Precision with which the whole stream's own error costs about 0.05 dB, and less than 0.1 dB, beside the distance
+/// Precision with which the whole stream's own error costs about 0.04 dB, and less than 0.1 dB, beside the distance
 /// between a scanned surface and its remesh, whose vertices are `positions`: passes of the bit-plane coder,
 /// kPassesPerPlane to each of EncodeOptions::precision_bits. That surface is not at hand, so its curvature is read off
 /// the heights of the finest vertices over their parent edges. (A sphere is nearer to its remesh than any scanned
