@@ -8,21 +8,20 @@ namespace {
 
 constexpr int kFewestPatches = 3;  // around an interior base vertex
 
-bool has_edge(const BaseComplex& base, const std::vector<BaseFan>& fans, int a, int b) {
-  return std::any_of(fans[a].sectors.begin(), fans[a].sectors.end(), [&](const BaseFan::Sector& s) {
-    return base.faces[s.face][(s.corner + 1) % 3] == b || base.faces[s.face][(s.corner + 2) % 3] == b;
-  });
+constexpr double kOneBaseEdge = 1e-9;  // squared length above 1
+
+/// The face to the left of the base edge from p to q, else that to its right, -1 where they are not joined.
+int face_beside(const BaseComplex& base, const std::vector<BaseFan>& fans, int p, int q) {
+  int found = -1;
+  for (const BaseFan::Sector& s : fans[p].sectors) {
+    if (base.faces[s.face][(s.corner + 1) % 3] == q) return s.face;
+    if (base.faces[s.face][(s.corner + 2) % 3] == q) found = s.face;
+  }
+  return found;
 }
 
-/// The base edges that an edge of the surface crosses.
-struct Way {
-  int edge;
-  int start, end;          ///< its vertices; the start is no patch corner
-  bool forward;            ///< whether the edge's direction leaves the start
-  std::vector<int> sides;  ///< half-edges of the base, each of the face that is left
-};
-
-/// Nothing where the way does not lead to the end's chart as the edge's transition says, or both ends are patch corners.
+/// Nothing where the way does not lead to the end's chart as the edge's transition says, or joins two patch corners other
+/// than along a base edge.
 std::optional<Way> find_way(const Atlas& atlas, int edge) {
   const int h = atlas.surface->edge_halfedge[edge];
   Way way{edge, atlas.surface->halfedges.from(h), atlas.surface->halfedges.to(h), true, {}};
@@ -30,7 +29,13 @@ std::optional<Way> find_way(const Atlas& atlas, int edge) {
     std::swap(way.start, way.end);
     way.forward = false;
   }
-  if (atlas.corner[way.start] >= 0 || !inside_chart(atlas.position[way.start])) return std::nullopt;
+  if (atlas.corner[way.start] >= 0) {
+    const Complex end = atlas.towards(edge, way.forward).apply(atlas.position[way.end]);
+    const bool along = std::norm(end - atlas.position[way.start]) < 1.0 + kOneBaseEdge &&
+                       face_beside(atlas.base, atlas.fans, atlas.corner[way.start], atlas.corner[way.end]) >= 0;
+    return along ? std::optional(way) : std::nullopt;
+  }
+  if (!inside_chart(atlas.position[way.start])) return std::nullopt;
   const Transition back = atlas.towards(edge, way.forward);  // from the end's chart
   auto arrival = follow(atlas.base, atlas.patch[way.start], atlas.position[way.start], back.apply(atlas.position[way.end]),
                         &way.sides);
@@ -50,6 +55,17 @@ std::optional<Way> find_way(const Atlas& atlas, int edge) {
   return way;
 }
 
+bool in_patches(const FlipSite& site, int face) { return face == site.faces[0] || face == site.faces[1]; }
+
+bool is_changed(const Atlas& atlas, const FlipSite& site, const Way& way) {
+  const int corner = atlas.corner[way.end], start = atlas.corner[way.start];
+  const auto at_site = [&](int c) { return c >= 0 && std::count(site.corners.begin(), site.corners.end(), c) > 0; };
+  if (at_site(start) || at_site(corner)) return true;
+  if (start >= 0) return false;
+  return in_patches(site, atlas.patch[way.start]) || (corner < 0 && in_patches(site, atlas.patch[way.end])) ||
+         std::any_of(way.sides.begin(), way.sides.end(), [&](int side) { return in_patches(site, side / 3); });
+}
+
 class Flip {
  public:
   Flip(Atlas& atlas, const FlipSite& site) : atlas_(atlas), site_(site) {
@@ -59,13 +75,7 @@ class Flip {
     new_ = {3 * f0, 3 * f0 + 1, 3 * f1, 3 * f1 + 1};
   }
 
-  bool run(const std::vector<int>& vertices, const std::vector<int>& edges) {
-    std::vector<Way> ways;
-    for (int edge : edges) {
-      std::optional<Way> way = find_way(atlas_, edge);
-      if (!way) return false;
-      if (is_changed(*way)) ways.push_back(std::move(*way));
-    }
+  bool run(const std::vector<int>& vertices, const std::vector<Way>& ways) {
     for (int v : vertices) move_vertex(v);
     change_base();
     for (int corner : site_.corners) seat(corner);
@@ -73,14 +83,7 @@ class Flip {
   }
 
  private:
-  bool in_rhombus(int face) const { return face == site_.faces[0] || face == site_.faces[1]; }
-
-  bool is_changed(const Way& way) const {
-    const int corner = atlas_.corner[way.end];
-    if (corner >= 0 && std::count(site_.corners.begin(), site_.corners.end(), corner) > 0) return true;
-    return in_rhombus(atlas_.patch[way.start]) || (corner < 0 && in_rhombus(atlas_.patch[way.end])) ||
-           std::any_of(way.sides.begin(), way.sides.end(), [&](int side) { return in_rhombus(side / 3); });
-  }
+  bool in_rhombus(int face) const { return in_patches(site_, face); }
 
   /// Since A + B = C + D in the rhombus, a point of either old triangle has weights in one of the new ones.
   void move_vertex(int v) {
@@ -132,6 +135,7 @@ class Flip {
 
   /// Gives an edge the transition along its old way, the diagonal crossed where the new faces ask for it.
   bool connect(const Way& way) {
+    if (atlas_.corner[way.start] >= 0) return connect_corners(way);
     const BaseComplex& base = atlas_.base;
     int at = atlas_.patch[way.start];
     Transition change;
@@ -152,10 +156,22 @@ class Flip {
     const auto arrived = [&] { return corner < 0 ? at == atlas_.patch[way.end] : atlas_.fans[corner].find(at) >= 0; };
     if (!arrived() && in_rhombus(at)) cross(3 * at + 2);
     if (!arrived()) return false;
-    if (corner >= 0) {
-      const BaseFan& fan = atlas_.fans[corner];
-      change = fan.develop(fan.find(atlas_.patch[way.end])).inverse() * fan.develop(fan.find(at)) * change;
-    }
+    if (corner >= 0) change = about_corner(way.end, at) * change;
+    atlas_.transition[way.edge] = way.forward ? change.inverse() : change;
+    return true;
+  }
+
+  /// From the chart of a face at a patch corner to the corner's own.
+  Transition about_corner(int v, int face) const {
+    const BaseFan& fan = atlas_.fans[atlas_.corner[v]];
+    return fan.develop(fan.find(atlas_.patch[v])).inverse() * fan.develop(fan.find(face));
+  }
+
+  /// Gives an edge along a base edge its transition; false where that is the one that was flipped.
+  bool connect_corners(const Way& way) {
+    const int face = face_beside(atlas_.base, atlas_.fans, atlas_.corner[way.start], atlas_.corner[way.end]);
+    if (face < 0) return false;
+    const Transition change = about_corner(way.end, face) * about_corner(way.start, face).inverse();
     atlas_.transition[way.edge] = way.forward ? change.inverse() : change;
     return true;
   }
@@ -178,7 +194,7 @@ std::optional<FlipSite> flip_site(const Atlas& atlas, int diagonal) {
   const auto too_few = [&](int v) {
     return atlas.fans[v].valence() <= (atlas.fans[v].boundary ? 1 : kFewestPatches);
   };
-  if (c == d || too_few(a) || too_few(b) || has_edge(base, atlas.fans, c, d)) return std::nullopt;
+  if (c == d || too_few(a) || too_few(b) || face_beside(base, atlas.fans, c, d) >= 0) return std::nullopt;
   if (atlas.fans[c].boundary && atlas.fans[d].boundary) return std::nullopt;
   return FlipSite{diagonal, {a, b, c, d}, {diagonal / 3, twin / 3}};
 }
@@ -192,8 +208,18 @@ std::vector<int> faces_around(const Atlas& atlas, const FlipSite& site) {
   return faces;
 }
 
-bool flip(Atlas& atlas, const FlipSite& site, const std::vector<int>& vertices, const std::vector<int>& edges) {
-  return Flip(atlas, site).run(vertices, edges);
+std::optional<std::vector<Way>> changed_ways(const Atlas& atlas, const FlipSite& site, const std::vector<int>& edges) {
+  std::vector<Way> ways;
+  for (int edge : edges) {
+    std::optional<Way> way = find_way(atlas, edge);
+    if (!way) return std::nullopt;
+    if (is_changed(atlas, site, *way)) ways.push_back(std::move(*way));
+  }
+  return ways;
+}
+
+bool flip(Atlas& atlas, const FlipSite& site, const std::vector<int>& vertices, const std::vector<Way>& ways) {
+  return Flip(atlas, site).run(vertices, ways);
 }
 
 }  // namespace gsp

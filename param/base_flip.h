@@ -22,11 +22,22 @@ std::optional<FlipSite> flip_site(const Atlas& atlas, int diagonal);
 /// The base faces at a site's corners, ascending.
 std::vector<int> faces_around(const Atlas& atlas, const FlipSite& site);
 
+/// The base edges that an edge of the surface crosses.
+struct Way {
+  int edge;
+  int start, end;          ///< its vertices; if the start is a patch corner both are, and it runs along a base edge
+  bool forward;            ///< whether the edge's direction leaves the start
+  std::vector<int> sides;  ///< half-edges of the base, each of the face that is left
+};
+
+/// The ways that a flip changes. `edges`: all edges of the surface that may touch the site's patches, or end at its corners.
+/// Nothing where the edge cannot be flipped: some edge's way is not known, or joins two patch corners across a patch.
+std::optional<std::vector<Way>> changed_ways(const Atlas& atlas, const FlipSite& site, const std::vector<int>& edges);
+
 /// Flips the edge. The two patches are mapped onto their successors by the affine map of the rhombus that they form, which is
-/// continuous to the patches beside them; faces of the surface that cross the rhombus's sides may fold. `edges`: all edges of
-/// the surface that may touch the two patches, or end at the site's corners. `vertices`: those in the two patches that are
-/// no corners. False where the atlas could not be changed, and is not fit for use: some edge's way is not known, or joins two
-/// patch corners.
-bool flip(Atlas& atlas, const FlipSite& site, const std::vector<int>& vertices, const std::vector<int>& edges);
+/// continuous to the patches beside them; faces of the surface that cross the rhombus's sides may fold. `ways`: those that the
+/// flip changes. `vertices`: those in the two patches that are no corners. False where a way could not be followed through the
+/// new patches, such as one along the flipped edge; the atlas is then not fit for use.
+bool flip(Atlas& atlas, const FlipSite& site, const std::vector<int>& vertices, const std::vector<Way>& ways);
 
 }  // namespace gsp

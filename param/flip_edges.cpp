@@ -226,6 +226,8 @@ bool Flipper::attempt(const FlipSite& site, const std::vector<int>& patches) {
   for (int corner : site.corners) add_edges(atlas_.base.vertices[corner]);
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  const auto ways = changed_ways(atlas_, site, edges);
+  if (!ways) return false;
   for (int p : patches)
     if (is_beside(p, site))
       std::copy_if(members_[p].begin(), members_[p].end(), std::back_inserter(free), [&](int v) { return atlas_.is_free(v); });
@@ -242,7 +244,7 @@ bool Flipper::attempt(const FlipSite& site, const std::vector<int>& patches) {
   std::vector<int> moved = members_[site.faces[0]];
   moved.insert(moved.end(), members_[site.faces[1]].begin(), members_[site.faces[1]].end());
   const double goal = isometric + kWorthwhile * (before - isometric);
-  if (!flip(atlas_, site, moved, edges) || !lower_to(goal, free)) {
+  if (!flip(atlas_, site, moved, *ways) || !lower_to(goal, free)) {
     snapshot.restore(atlas_);
     return false;
   }

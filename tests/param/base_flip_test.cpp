@@ -25,7 +25,8 @@ bool flip_alone(Atlas& atlas, const FlipSite& site) {
   std::vector<int> inside;
   for (int v = 0; v < static_cast<int>(atlas.patch.size()); ++v)
     if (atlas.corner[v] < 0 && (atlas.patch[v] == site.faces[0] || atlas.patch[v] == site.faces[1])) inside.push_back(v);
-  return flip(atlas, site, inside, all_edges(atlas));
+  const auto ways = changed_ways(atlas, site, all_edges(atlas));
+  return ways && flip(atlas, site, inside, *ways);
 }
 
 /// Squared length of every edge's image.
