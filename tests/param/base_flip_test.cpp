@@ -97,6 +97,40 @@ TEST_CASE("a flip keeps the area and the ways of all edges, and a second one tak
   }
 }
 
+TEST_CASE("edges between patch corners along base edges follow a flip, but for one along the edge that is flipped") {
+  Parameterization map = exact_maps::quadrisected(shapes::icosahedron(), 0);
+  Atlas coarse = atlas_of(map);
+  CHECK_FALSE(flip_alone(coarse, *flip_site(coarse, 0)));
+
+  // A vertex in the middle of the first base edge.
+  const int middle = map.surface.vertex_count();
+  map.surface.positions.push_back(0.5 * (map.surface.positions[map.surface.faces[0][0]] +
+                                         map.surface.positions[map.surface.faces[0][1]]));
+  map.patch.push_back(0);
+  map.position.push_back(0.5 * (map.face_corners[0][0] + map.face_corners[0][1]));
+  for (int h : {0, map.base.twins[0]}) {
+    const int f = h / 3, k = h % 3, next = (k + 1) % 3;
+    Triangle piece = map.surface.faces[f];
+    auto corners = map.face_corners[f];
+    const Complex at = 0.5 * (corners[k] + corners[next]);
+    map.surface.faces[f][next] = piece[k] = middle;
+    map.face_corners[f][next] = corners[k] = at;
+    map.surface.faces.push_back(piece);
+    map.face_corners.push_back(corners);
+    map.face_chart.push_back(f);
+  }
+  REQUIRE(check_map(map).valid());
+  const Atlas start = atlas_of(map);
+  Atlas atlas = start;
+  const auto site = flip_site(atlas, 0);
+  REQUIRE(site);
+  REQUIRE(flip_alone(atlas, *site));
+  check_base(atlas);
+  CHECK(find_folds(atlas).none());
+  CHECK(check_map(atlas.finish({})).valid());
+  CHECK(lengths(atlas) != lengths(start));
+}
+
 TEST_CASE("edges that the base needs are not flipped") {
   const auto sites = [](const Mesh& base) {
     const Atlas atlas = atlas_of(exact_maps::quadrisected(base, 1));
