@@ -28,7 +28,7 @@ constexpr int kAutomaticRatio = 16;  // vertices for each of the coarsest level,
 constexpr int kSmallestLevel = 1000;
 constexpr int kBatchShare = 64;  // vertices of the complex for each of those that are priced side by side
 constexpr int kBlocks = 8, kLargestBlock = 16;  // of such a batch
-constexpr int kLevelPerBase = 16;  // vertices of the coarsest level for each of the base
+constexpr int kLevelPerBase = 24;  // vertices of the coarsest level for each of the base
 
 int used_vertices(const Surface& surface) {
   return static_cast<int>(std::count_if(surface.halfedges.outgoing.begin(), surface.halfedges.outgoing.end(),
