@@ -95,6 +95,12 @@ int find_base_face(const BaseComplex& base, const std::vector<BaseFan>& fans, co
   return -1;
 }
 
+int find_base_edge(const BaseComplex& base, const std::vector<BaseFan>& fans, int a, int b) {
+  for (const BaseFan::Sector& s : fans[a].sectors)
+    if (base.faces[s.face][(s.corner + 1) % 3] == b) return 3 * s.face + s.corner;
+  return -1;
+}
+
 void Atlas::change_chart(int vertex, int chart, const Transition& change) {
   patch[vertex] = chart;
   position[vertex] = change.apply(position[vertex]);

@@ -40,6 +40,9 @@ BaseFan base_fan(const BaseComplex& base, int halfedge);
 /// The base face with three base vertices in that order, -1 where there is none.
 int find_base_face(const BaseComplex& base, const std::vector<BaseFan>& fans, const std::array<int, 3>& corners);
 
+/// The half-edge from base vertex a to b, -1 where there is none.
+int find_base_edge(const BaseComplex& base, const std::vector<BaseFan>& fans, int a, int b);
+
 /// Whether a point lies in its chart's triangle, or outside by rounding.
 bool inside_chart(Complex z);
 

@@ -12,12 +12,8 @@ constexpr double kOneBaseEdge = 1e-9;  // squared length above 1
 
 /// The face to the left of the base edge from p to q, else that to its right, -1 where they are not joined.
 int face_beside(const BaseComplex& base, const std::vector<BaseFan>& fans, int p, int q) {
-  int found = -1;
-  for (const BaseFan::Sector& s : fans[p].sectors) {
-    if (base.faces[s.face][(s.corner + 1) % 3] == q) return s.face;
-    if (base.faces[s.face][(s.corner + 2) % 3] == q) found = s.face;
-  }
-  return found;
+  const int there = find_base_edge(base, fans, p, q), side = there >= 0 ? there : find_base_edge(base, fans, q, p);
+  return side >= 0 ? side / 3 : -1;
 }
 
 /// Nothing where the way does not lead to the end's chart as the edge's transition says, or joins two patch corners other

@@ -9,6 +9,9 @@
 
 namespace gsp {
 
+/// λ of `DistortionEnergy` for maps: areas count as much as angles.
+inline constexpr double kMapAreaWeight = 1.0;
+
 /// A face's shape on the surface, of which its image should be a copy.
 struct ReferenceShape {
   double inverse[3];  ///< of the upper triangular matrix of its edges in the plane: (0,0), (0,1), (1,1)

@@ -17,8 +17,7 @@ namespace gsp {
 
 namespace {
 
-constexpr double kAreaWeight = 1.0;
-constexpr double kIsometry = 1.0 + kAreaWeight;  // energy by area
+constexpr double kIsometry = 1.0 + kMapAreaWeight;  // energy by area
 constexpr double kWorthwhile = 0.99;  // of the energy above an isometry's, that a flip has to fall below
 constexpr double kLoss = 0.5;         // of shape that the affine map may cost, which smoothing has to win back
 constexpr int kApartSteps = 20;         // of L-BFGS for each ε, where the affine map has folds
@@ -88,7 +87,7 @@ class Flipper {
   int pass() {
     int flipped = 0;
     for (const Candidate& c : candidates()) {
-      const int h = halfedge_between(c.a, c.b);
+      const int h = find_base_edge(atlas_.base, atlas_.fans, c.a, c.b);
       const auto site = h < 0 ? std::nullopt : flip_site(atlas_, h);
       if (!site) continue;
       const std::vector<int> patches = faces_around(atlas_, *site);
@@ -110,11 +109,10 @@ class Flipper {
 
   bool is_long(int edge) const;
   bool is_beside(int patch, const FlipSite& site) const;
-  int halfedge_between(int a, int b) const;
   std::vector<Candidate> candidates() const;
   bool attempt(const FlipSite& site, const std::vector<int>& patches);
-  bool lower_to(double goal, const std::vector<int>& vertices);
-  DistortionEnergy energy_around(const std::vector<int>& vertices) const;
+  bool lower_to(double goal, const std::vector<int>& vertices, const std::vector<int>& faces);
+  DistortionEnergy energy_of(const std::vector<int>& vertices, const std::vector<int>& faces) const;
 
   Atlas& atlas_;
   std::vector<ReferenceShape> shapes_;      ///< per face
@@ -129,12 +127,6 @@ bool Flipper::is_long(int edge) const {
   const int h = atlas_.surface->edge_halfedge[edge];
   const int from = atlas_.surface->halfedges.from(h), to = atlas_.surface->halfedges.to(h);
   return std::norm(atlas_.transition[edge].apply(atlas_.position[to]) - atlas_.position[from]) > kLongEdge * kLongEdge;
-}
-
-int Flipper::halfedge_between(int a, int b) const {
-  for (const BaseFan::Sector& s : atlas_.fans[a].sectors)
-    if (atlas_.base.faces[s.face][(s.corner + 1) % 3] == b) return 3 * s.face + s.corner;
-  return -1;
 }
 
 /// The edges for which the mean of J Jᵀ over their patches has not much more shape distortion after the flip's affine map, in
@@ -177,17 +169,17 @@ std::vector<Flipper::Candidate> Flipper::candidates() const {
   return found;
 }
 
-DistortionEnergy Flipper::energy_around(const std::vector<int>& vertices) const {
-  const std::vector<int> faces = faces_around(*atlas_.surface, vertices);
+/// `faces`: those around the vertices.
+DistortionEnergy Flipper::energy_of(const std::vector<int>& vertices, const std::vector<int>& faces) const {
   std::vector<ReferenceShape> shapes;
   for (int f : faces) shapes.push_back(shapes_[f]);
-  return {atlas_, vertices, faces, shapes, kAreaWeight};
+  return {atlas_, vertices, faces, shapes, kMapAreaWeight};
 }
 
 /// Smooths around the site until its energy is below the goal and gains little more. False where it does not come there free of
 /// folds, or a vertex loses its chart.
-bool Flipper::lower_to(double goal, const std::vector<int>& vertices) {
-  const DistortionEnergy around = energy_around(vertices);
+bool Flipper::lower_to(double goal, const std::vector<int>& vertices, const std::vector<int>& faces) {
+  const DistortionEnergy around = energy_of(vertices, faces);
   std::vector<double> x = around.positions(atlas_);
   if (!around.upright(x) && !drive_apart(around, x, kApartSteps)) return false;
   lower_peaks(around, x);
@@ -199,12 +191,9 @@ bool Flipper::lower_to(double goal, const std::vector<int>& vertices) {
   if (descent.value() > goal) return false;
   around.write_back(x, atlas_);
   // Faces that have been driven apart may still go round a vertex once too often.
-  const std::vector<int> faces = faces_around(*atlas_.surface, vertices);
-  const auto injective = [&](int f) {
-    const Triangle& t = atlas_.surface->mesh.faces[f];
-    return std::all_of(t.begin(), t.end(), [&](int v) { return local_map(atlas_, v) == LocalMap::Injective; });
-  };
-  return std::all_of(faces.begin(), faces.end(), injective) &&
+  const std::vector<int> touched = vertices_of(atlas_.surface->mesh.faces, faces);
+  const auto injective = [&](int v) { return local_map(atlas_, v) == LocalMap::Injective; };
+  return std::all_of(touched.begin(), touched.end(), injective) &&
          std::all_of(vertices.begin(), vertices.end(), [&](int v) { return atlas_.reassign(v); });
 }
 
@@ -234,7 +223,8 @@ bool Flipper::attempt(const FlipSite& site, const std::vector<int>& patches) {
   if (free.empty()) return false;
   std::sort(free.begin(), free.end());
 
-  const DistortionEnergy around = energy_around(free);
+  const std::vector<int> faces = faces_around(*atlas_.surface, free);
+  const DistortionEnergy around = energy_of(free, faces);
   std::vector<double> x = around.positions(atlas_), gradient(x.size());
   const double before = around.evaluate(x.data(), gradient.data(), 0.0);
   double isometric = 0.0;
@@ -244,7 +234,7 @@ bool Flipper::attempt(const FlipSite& site, const std::vector<int>& patches) {
   std::vector<int> moved = members_[site.faces[0]];
   moved.insert(moved.end(), members_[site.faces[1]].begin(), members_[site.faces[1]].end());
   const double goal = isometric + kWorthwhile * (before - isometric);
-  if (!flip(atlas_, site, moved, *ways) || !lower_to(goal, free)) {
+  if (!flip(atlas_, site, moved, *ways) || !lower_to(goal, free, faces)) {
     snapshot.restore(atlas_);
     return false;
   }

@@ -13,7 +13,6 @@ namespace gsp {
 
 namespace {
 
-constexpr double kAreaWeight = 1.0;
 constexpr int kMostSteps = 100;
 
 }  // namespace
@@ -25,7 +24,7 @@ bool lower_distortion(Atlas& atlas, double least_gain, Progress& progress) {
     if (atlas.is_free(v)) vertices.push_back(v);
   if (vertices.empty()) return false;
   std::iota(faces.begin(), faces.end(), 0);
-  const DistortionEnergy energy(atlas, vertices, faces, reference_shapes(atlas, faces), kAreaWeight);
+  const DistortionEnergy energy(atlas, vertices, faces, reference_shapes(atlas, faces), kMapAreaWeight);
   std::vector<double> x = energy.positions(atlas);
   const std::vector<Complex> before = atlas.position;
   lower_peaks(energy, x);
@@ -143,7 +142,7 @@ void lower_distortion_locally(Atlas& atlas, int sweeps, Progress& progress) {
           const Block& block = blocks[groups[g][i]];
           std::vector<ReferenceShape> own;
           for (int f : block.faces) own.push_back(shapes[f]);
-          const DistortionEnergy energy(atlas, block.vertices, block.faces, own, kAreaWeight);
+          const DistortionEnergy energy(atlas, block.vertices, block.faces, own, kMapAreaWeight);
           std::vector<double> x = energy.positions(atlas);
           lower_peaks(energy, x);
           NewtonDescent descent(energy, x);

@@ -191,7 +191,7 @@ bool Reinsertion::make_room(int rings, double importance) {
   if (moving.empty()) return false;
   std::vector<ReferenceShape> shapes = reference_shapes(part, all);
   want_star(part, faces, importance, shapes);
-  const DistortionEnergy energy(part, moving, all, shapes, 1.0);
+  const DistortionEnergy energy(part, moving, all, shapes, kMapAreaWeight);
   std::vector<double> x = energy.positions(part);
   NewtonDescent descent(energy, x);
   for (int step = 0; step < kSteps; ++step) {

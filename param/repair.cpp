@@ -93,11 +93,7 @@ class Repair {
     minimise(energy, 1e-9, kLastSteps, x);
     if (!energy.upright(x)) x = valid;
     energy.write_back(x, atlas_);
-    std::vector<int> touched;
-    for (int f : faces)
-      for (int v : surface_.mesh.faces[f]) touched.push_back(v);
-    std::sort(touched.begin(), touched.end());
-    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    const std::vector<int> touched = vertices_of(surface_.mesh.faces, faces);
     // Beyond the rim faces may still be folded.
     const bool miswound = std::any_of(touched.begin(), touched.end(),
                                       [&](int v) { return local_map(atlas_, v) == LocalMap::Miswound; });

@@ -51,11 +51,10 @@ class Simplifier {
         options_(options),
         progress_(progress),
         map_(surface, false),
-        pricer_(*surface_, map_.complex(), map_.locations(), map_.points(), options_),
         start_(used_vertices(*surface)),
         stop_(start_),
         remaining_(start_),
-        pricers_(kBlocks, pricer_) {}
+        pricers_(kBlocks, Pricer(*surface_, map_.complex(), map_.locations(), map_.points(), options_)) {}
 
   SimplifyResult run(int coarsest);
 
@@ -80,7 +79,6 @@ class Simplifier {
   const ParameterizeOptions& options_;
   Progress& progress_;
   ShrinkingMap map_;
-  Pricer pricer_;
   const int start_;  ///< vertices of the surface
   AutomaticStop stop_;
   int remaining_;
@@ -104,7 +102,7 @@ void Simplifier::price_all() {
   const int count = surface_->mesh.vertex_count();
   candidates_.resize(count);
   parallel_for(count, 2048, [&](std::size_t begin, std::size_t end) {
-    Pricer pricer = pricer_;
+    Pricer pricer = pricers_.front();
     for (std::size_t v = begin; v < end; ++v)
       if (surface_->halfedges.outgoing[v] >= 0) pricer.price(static_cast<int>(v), candidates_[v]);
   });
@@ -162,13 +160,13 @@ void Simplifier::remove_down_to(int target) {
     queue_.pop();
     if (top.stamp != stamp_[top.vertex]) continue;
     Candidate& candidate = candidates_[top.vertex];
-    map_.complex().gather(top.vertex, star);
+    if (!stale_[top.vertex]) map_.complex().gather(top.vertex, star);
     if (stale_[top.vertex] || has_taken_edge(star, candidate)) {
       price_next(top.vertex);
       continue;
     }
     queued_[top.vertex] = 0;  // if it cannot be removed now it waits until its star changes
-    if (!pricer_.leaves_surface(star)) continue;
+    if (!pricers_.front().leaves_surface(star)) continue;
     candidate.parts.remaining_vertices = remaining_ - 1;
     if (options_.base_vertices == 0 && stop_.reached(candidate.parts)) {
       record.push_back(candidate.parts);

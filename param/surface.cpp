@@ -104,6 +104,14 @@ Surface::Surface(Mesh input, std::vector<double> areas) : Surface(std::move(inpu
     for (int v : mesh.faces[f]) vertex_area[v] += face_area[f] / 3.0;
 }
 
+std::vector<int> vertices_of(const std::vector<Triangle>& faces, const std::vector<int>& some) {
+  std::vector<int> vertices;
+  for (int f : some) vertices.insert(vertices.end(), faces[f].begin(), faces[f].end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
 std::vector<int> faces_around(const Surface& surface, const std::vector<int>& vertices) {
   std::vector<int> faces;
   for (int v : vertices) {

@@ -45,6 +45,9 @@ struct Surface {
 /// The faces at some vertices, ascending. O(n log n) of their number.
 std::vector<int> faces_around(const Surface& surface, const std::vector<int>& vertices);
 
+/// The vertices of some faces, ascending. O(n log n) of their number.
+std::vector<int> vertices_of(const std::vector<Triangle>& faces, const std::vector<int>& some);
+
 /// Splits every interior edge whose two ends lie on the boundary at its middle. Without this a face whose corners lie on
 /// one straight boundary edge of the base would have no area. New vertices come last; each split face is replaced in
 /// place, the further pieces come last. Returns the number of vertices added.

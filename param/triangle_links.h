@@ -7,6 +7,7 @@
 #include "mesh/halfedges.h"
 #include "mesh/mesh.h"
 #include "param/lattice.h"
+#include "param/surface.h"
 
 namespace gsp {
 
@@ -31,11 +32,7 @@ struct TriangleLinks {
 
   /// The vertices of some faces, ascending.
   std::vector<int> vertices_of(const std::vector<int>& some) const {
-    std::vector<int> vertices;
-    for (int f : some) vertices.insert(vertices.end(), faces[f].begin(), faces[f].end());
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    return vertices;
+    return gsp::vertices_of(faces, some);
   }
 
   void join(int a, int b) {
