@@ -3,8 +3,8 @@
 #include "mesh/parallel.h"
 #include "mesh/shapes.h"
 #include "param/parameterize.h"
-#include "param/simplify.h"
-#include "param/smooth_levels.h"
+#include "param/simplify/simplify.h"
+#include "param/stages/smooth_levels.h"
 
 namespace {
 
@@ -27,7 +27,8 @@ void simplify_sphere(benchmark::State& state) {
   const auto sphere = surface(state);
   set_thread_count(static_cast<int>(state.range(1)));
   Progress silent;
-  for (auto _ : state) benchmark::DoNotOptimize(simplify(sphere, options(), coarsest_level(*sphere, options()), silent));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(simplify(sphere, options(), coarsest_level(*sphere, options()), silent));
   state.SetItemsProcessed(state.iterations() * sphere->mesh.vertex_count());
   set_thread_count(0);
 }

@@ -1,4 +1,4 @@
-#include "experiments/check.h"
+#include "experiments/check/check.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "cli/options.h"
 #include "cli/print.h"
-#include "experiments/summary.h"
+#include "experiments/curve/summary.h"
 #include "mesh/atomic_file.h"
 
 namespace gsp::cli {

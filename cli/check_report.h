@@ -2,7 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "param/parameterization.h"
+#include "param/map/parameterization.h"
 
 namespace gsp::cli {
 

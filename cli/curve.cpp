@@ -1,4 +1,4 @@
-#include "experiments/curve.h"
+#include "experiments/curve/curve.h"
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -7,9 +7,9 @@
 #include "cli/options.h"
 #include "cli/print.h"
 #include "cli/summary_report.h"
-#include "experiments/cell_options.h"
+#include "experiments/cells/cell_options.h"
+#include "experiments/cells/models.h"
 #include "experiments/curve_job.h"
-#include "experiments/models.h"
 
 namespace gsp::cli {
 
@@ -51,7 +51,8 @@ void add_curve(CLI::App& app, Context& context) {
   auto options = std::make_shared<CurveArguments>();
   command.arguments("MESH", options->meshes, "surfaces, or folders of them: PLY, OBJ, OFF, STL");
   command.output("DIR", options->output, "folder for curve.csv and the figures");
-  command.choices("--methods", options->methods, map_method_words(), "maps to compare on the base vertices of one simplification");
+  command.choices("--methods", options->methods, map_method_words(),
+                  "maps to compare on the base vertices of one simplification");
   command.parameterize_options(options->curve.parameterize);
   command.remesh_options(options->curve.remesh);
   command.encode_options(options->wavelet, options->curve.encode);

@@ -34,7 +34,10 @@ SurfaceTree tree_of(const Mesh& mesh, const std::string& path) {
 /// Both surfaces and their trees, each built once for all that is measured.
 struct Pair {
   explicit Pair(const DistanceArguments& options)
-      : a(read_mesh(options.a)), b(read_mesh(options.b)), tree_a(tree_of(a, options.a)), tree_b(tree_of(b, options.b)) {}
+      : a(read_mesh(options.a)),
+        b(read_mesh(options.b)),
+        tree_a(tree_of(a, options.a)),
+        tree_b(tree_of(b, options.b)) {}
   Mesh a, b;
   SurfaceTree tree_a, tree_b;
 };
@@ -69,10 +72,11 @@ Json report_of(const Psnr& psnr) {
 Json metro_report(const Pair& pair, Progress& progress) {
   constexpr std::size_t kAsMetro = 0;
   const MetroDistances d = metro_distances(pair.a, pair.tree_a, pair.b, pair.tree_b, kAsMetro, progress);
-  return {{"forward", direction(d.forward)},
-          {"backward", direction(d.backward)},
-          {"inflated_diagonal", d.diagonal},
-          {"rule", "as Metro 4.07: vertex, edge and face samples weigh the same; diagonal of the joint box widened by 2%"}};
+  return {
+      {"forward", direction(d.forward)},
+      {"backward", direction(d.backward)},
+      {"inflated_diagonal", d.diagonal},
+      {"rule", "as Metro 4.07: vertex, edge and face samples weigh the same; diagonal of the joint box widened by 2%"}};
 }
 
 void write_per_vertex(const std::string& path, const Pair& pair, const SurfaceDistance& distance) {
@@ -129,12 +133,16 @@ void add_distance(CLI::App& app, Context& context) {
                  "also enclose the Hausdorff distance in certain bounds, this much apart; 0 for samples alone");
   command.flag("--metro", options->metro, "also what Metro 4.07 computes, with its samples and averages");
   command.flag("--mpeg", options->mpeg, "also MPEG's D2 PSNR (point to plane)");
-  command.optional_file("--per-vertex", options->per_vertex, "also write A as PLY with each vertex's distance and a colour");
+  command.optional_file("--per-vertex", options->per_vertex,
+                        "also write A as PLY with each vertex's distance and a colour");
   command.footer(
       "Forward is from A to B, and beneath both directions stands the larger number of the two. Mean, RMS and the 95%\n"
-      "quantile are over area; Hausdorff is the largest over the samples, which --hausdorff-tolerance encloses from both\n"
-      "sides. The standard error is that of the RMS. PSNR is 20 log10(diagonal of A's bounding box / larger RMS); MPEG's D1\n"
-      "and D2 use another peak and formula and are other numbers. Metro's averages mix vertex, edge and face samples without\n"
+      "quantile are over area; Hausdorff is the largest over the samples, which --hausdorff-tolerance encloses from "
+      "both\n"
+      "sides. The standard error is that of the RMS. PSNR is 20 log10(diagonal of A's bounding box / larger RMS); "
+      "MPEG's D1\n"
+      "and D2 use another peak and formula and are other numbers. Metro's averages mix vertex, edge and face samples "
+      "without\n"
       "weights: only for comparison with papers.");
   command.on_run([options, &context] { return run_distance(*options, context); });
 }

@@ -9,7 +9,7 @@
 #include "cli/print.h"
 #include "experiments/figures/map_measures.h"
 #include "mesh/atomic_file.h"
-#include "param/param_file.h"
+#include "param/map/param_file.h"
 
 namespace gsp::cli {
 
@@ -95,17 +95,22 @@ void add_distortion(CLI::App& app, Context& context) {
   auto options = std::make_shared<DistortionArguments>();
   command.argument("MAP", options->map, "map: *.param.ply");
   command.optional_file("--per-face", options->per_face, "also write every face's measures as CSV");
-  command.optional_file("--picture", options->picture, "also write the surface as PLY with every face's measures and a colour");
+  command.optional_file("--picture", options->picture,
+                        "also write the surface as PLY with every face's measures and a colour");
   command.choice("--colour", options->colour, map_measure_names(),
                  "what colours the picture: gray is neutral, red the worst 5% of the area");
   command.footer(
       "With singular values s1 >= s2 of the map from chart to surface, in units in which both have the same area:\n"
-      "anisotropy is the paper's Gamma_a = s1/s2, area its Gamma_d = s1*s2; the lines with eigenvalues give the same from\n"
-      "the metric tensor's eigenvalues, which are the squares. stretch l2 is sqrt((s1^2 + s2^2)/2) and stretch linf s1\n"
+      "anisotropy is the paper's Gamma_a = s1/s2, area its Gamma_d = s1*s2; the lines with eigenvalues give the same "
+      "from\n"
+      "the metric tensor's eigenvalues, which are the squares. stretch l2 is sqrt((s1^2 + s2^2)/2) and stretch linf "
+      "s1\n"
       "(Sander 2001; of the map: RMS and maximum), sorkine max(s1, 1/s2), conformal s1/s2 + s2/s1, area symmetric\n"
       "s1*s2 + 1/(s1*s2). Each is printed with the value it has without distortion. Weights are areas on the surface.\n"
-      "smoothness is the difference of the first derivatives of neighbouring faces, unfolded into one plane (figure 1).\n"
-      "across over inside is 1 where patch edges do not show: second derivatives across them over those inside patches at\n"
+      "smoothness is the difference of the first derivatives of neighbouring faces, unfolded into one plane (figure "
+      "1).\n"
+      "across over inside is 1 where patch edges do not show: second derivatives across them over those inside patches "
+      "at\n"
       "the same distance from a corner.");
   command.on_run([options, &context] { return run_distortion(*options, context); });
 }

@@ -5,8 +5,8 @@
 #include "cli/options.h"
 #include "cli/print.h"
 #include "coder/codec.h"
-#include "experiments/cell_options.h"
-#include "experiments/targets.h"
+#include "experiments/cells/cell_options.h"
+#include "experiments/curve/targets.h"
 #include "mesh/atomic_file.h"
 #include "remesh/recover_levels.h"
 
@@ -65,8 +65,8 @@ int run_encode(const EncodeArguments& options, Context& context) {
   const std::size_t header = header_bytes(whole);
   if (options.bytes > 0 && options.bytes < header)
     throw Error(Cause::BadOption, "the header alone takes " + std::to_string(header) + " bytes");
-  const Bytes stream = fixed ? fixed_stream(mesh, encode_options, options, progress)
-                             : embedded_stream(whole, mesh, options, progress);
+  const Bytes stream =
+      fixed ? fixed_stream(mesh, encode_options, options, progress) : embedded_stream(whole, mesh, options, progress);
 
   AtomicFile file(options.output);
   file.stream().write(reinterpret_cast<const char*>(stream.data()), static_cast<std::streamsize>(stream.size()));

@@ -1,4 +1,4 @@
-#include "experiments/export.h"
+#include "experiments/check/export.h"
 
 #include <memory>
 #include <nlohmann/json.hpp>

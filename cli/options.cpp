@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/cell_options.h"
+#include "experiments/cells/cell_options.h"
 
 namespace gsp::cli {
 

@@ -8,7 +8,7 @@
 
 #include "cli/command.h"
 #include "coder/codec.h"
-#include "experiments/cell_options.h"
+#include "experiments/cells/cell_options.h"
 #include "mesh/mesh.h"
 #include "param/parameterize.h"
 #include "remesh/remesh.h"

@@ -8,11 +8,11 @@
 #include "cli/check_report.h"
 #include "cli/options.h"
 #include "cli/print.h"
-#include "experiments/cell_options.h"
-#include "experiments/gnuplot.h"
+#include "experiments/cells/cell_options.h"
+#include "experiments/plot/gnuplot.h"
 #include "experiments/report/cost.h"
 #include "mesh/io.h"
-#include "param/param_file.h"
+#include "param/map/param_file.h"
 
 namespace gsp::cli {
 
@@ -29,7 +29,8 @@ struct ParameterizeArguments {
 void draw_cost(const std::string& path, const std::string& mesh, const CostCurve& cost) {
   const std::filesystem::path place(path);
   const std::string name = place.stem().string(), folder = place.parent_path().string();
-  draw_figure(folder.empty() ? "." : folder, name, cost_script(name, std::filesystem::path(mesh).stem().string(), cost));
+  draw_figure(folder.empty() ? "." : folder, name,
+              cost_script(name, std::filesystem::path(mesh).stem().string(), cost));
 }
 
 /// Where the stages of the simplification's cost begin, in vertices that remain; null where they were not reached.
@@ -80,11 +81,13 @@ void add_parameterize(CLI::App& app, Context& context) {
   auto options = std::make_shared<ParameterizeArguments>();
   command.argument("MESH", options->mesh, "surface: PLY, OBJ, OFF or STL");
   command.output("MAP", options->output, "the map, *.param.ply");
-  command.choice("--method", options->method, map_method_words(), "the paper's map, or a baseline on the same base vertices");
+  command.choice("--method", options->method, map_method_words(),
+                 "the paper's map, or a baseline on the same base vertices");
   command.parameterize_options(options->parameterize);
   command.optional_file("--omega-csv", options->omega_csv, "also write the cost of every vertex removal (figure 5d)");
-  command.optional_file("--omega-plot", options->omega_plot,
-                        "also draw that cost with its three stages and the automatic stop: FILE's name with .png, .svg and .gp");
+  command.optional_file(
+      "--omega-plot", options->omega_plot,
+      "also draw that cost with its three stages and the automatic stop: FILE's name with .png, .svg and .gp");
   command.flag("--check", options->check, "check the map face by face; exit status 1 where it is not valid");
   command.on_run([options, &context] { return run_parameterize(*options, context); });
 }

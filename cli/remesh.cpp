@@ -5,8 +5,8 @@
 
 #include "cli/options.h"
 #include "cli/print.h"
-#include "experiments/targets.h"
-#include "param/param_file.h"
+#include "experiments/curve/targets.h"
+#include "param/map/param_file.h"
 #include "remesh/semiregular_file.h"
 
 namespace gsp::cli {

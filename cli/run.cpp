@@ -8,7 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/print.h"
-#include "experiments/suggest.h"
+#include "experiments/cells/suggest.h"
 #include "experiments/version.h"
 #include "mesh/parallel.h"
 
@@ -28,8 +28,7 @@ void add_commands(CLI::App& app, Context& context) {
       "options.");
   for (auto* add :
        {add_curve, add_info, add_parameterize, add_remesh, add_encode, add_decode, add_distance, add_distortion,
-        add_picture, add_report, add_sweep, add_sweep_worker, add_baseline, add_check,
-        add_export})
+        add_picture, add_report, add_sweep, add_sweep_worker, add_baseline, add_check, add_export})
     add(app, context);
 }
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "cli/print.h"
-#include "experiments/summary.h"
+#include "experiments/curve/summary.h"
 
 namespace gsp::cli {
 

@@ -1,4 +1,4 @@
-#include "experiments/sweep.h"
+#include "experiments/sweep/sweep.h"
 
 #include <fmt/format.h>
 
@@ -11,9 +11,9 @@
 #include "cli/options.h"
 #include "cli/print.h"
 #include "cli/summary_report.h"
-#include "experiments/slurm.h"
-#include "experiments/stage_runner.h"
-#include "experiments/worker.h"
+#include "experiments/sweep/slurm.h"
+#include "experiments/sweep/stage_runner.h"
+#include "experiments/sweep/worker.h"
 
 namespace gsp::cli {
 

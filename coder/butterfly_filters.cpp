@@ -7,9 +7,9 @@ namespace gsp {
 
 namespace {
 
-class LowPass : public TapFilter<LowPass> {
+class ButterflyLowPass : public TapFilter<ButterflyLowPass> {
  public:
-  explicit LowPass(const SubdivisionLevel& coarse) : TapFilter(coarse), fans_(vertex_fans(coarse)) {
+  explicit ButterflyLowPass(const SubdivisionLevel& coarse) : TapFilter(coarse), fans_(vertex_fans(coarse)) {
     for (int v = 0; v < coarse.vertex_count; ++v)
       if (irregular(v)) set_weights(fans_[v].valence);
   }
@@ -122,7 +122,9 @@ class Update : public TapFilter<Update> {
 
 }  // namespace
 
-std::unique_ptr<Filter> butterfly_low_pass(const SubdivisionLevel& coarse) { return std::make_unique<LowPass>(coarse); }
+std::unique_ptr<Filter> butterfly_low_pass(const SubdivisionLevel& coarse) {
+  return std::make_unique<ButterflyLowPass>(coarse);
+}
 std::unique_ptr<Filter> butterfly_update(const SubdivisionLevel& coarse) { return std::make_unique<Update>(coarse); }
 
 }  // namespace gsp

@@ -22,9 +22,9 @@ Wavelet wavelet_of(const std::string& name);
 struct EncodeOptions {
   /// Loop is the transform with which the paper compares maps. `gsp encode` takes lifted Butterfly, which codes better.
   Wavelet wavelet = Wavelet::Loop;
-  /// Bits per coordinate of the finest quantization of normal components relative to the bounding box, 8..24, or as many
-  /// as the remesh is worth (coder/precision.h; 16 where it has no levels). It sets where the stream ends: the whole
-  /// stream codes every coefficient to about this step, times the inverse square root of the local over the mean
+  /// Bits per coordinate of the finest quantization of normal components relative to the bounding box, 8..24, or as
+  /// many as the remesh is worth (coder/precision.h; 16 where it has no levels). It sets where the stream ends: the
+  /// whole stream codes every coefficient to about this step, times the inverse square root of the local over the mean
   /// triangle area. At most 25 less the number of levels is used.
   static constexpr int kAutoPrecision = 0;
   int precision_bits = kAutoPrecision;

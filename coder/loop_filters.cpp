@@ -14,9 +14,9 @@ double kept_weight(int valence) {
   return 3.0 / 8.0 + c * c;
 }
 
-class LowPass : public TapFilter<LowPass> {
+class LoopLowPass : public TapFilter<LoopLowPass> {
  public:
-  explicit LowPass(const SubdivisionLevel& coarse) : TapFilter(coarse), fans_(vertex_fans(coarse)) {
+  explicit LoopLowPass(const SubdivisionLevel& coarse) : TapFilter(coarse), fans_(vertex_fans(coarse)) {
     kept_.reserve(fans_.size());
     for (const VertexFan& fan : fans_) {
       const bool inside = fan.boundary_count == 0 && fan.valence > 0;
@@ -201,7 +201,7 @@ class HighPass : public TapFilter<HighPass> {
 
 }  // namespace
 
-std::unique_ptr<Filter> loop_low_pass(const SubdivisionLevel& coarse) { return std::make_unique<LowPass>(coarse); }
+std::unique_ptr<Filter> loop_low_pass(const SubdivisionLevel& coarse) { return std::make_unique<LoopLowPass>(coarse); }
 
 std::unique_ptr<Filter> loop_high_pass(const SubdivisionLevel& coarse, bool mirror_symmetric) {
   return std::make_unique<HighPass>(coarse, mirror_symmetric);

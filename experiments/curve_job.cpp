@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <functional>
 
-#include "experiments/curve_csv.h"
-#include "experiments/models.h"
-#include "experiments/plot.h"
+#include "experiments/cells/models.h"
+#include "experiments/curve/curve_csv.h"
+#include "experiments/plot/plot.h"
 
 namespace gsp {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/curve.h"
-#include "experiments/summary.h"
+#include "experiments/curve/curve.h"
+#include "experiments/curve/summary.h"
 
 namespace gsp {
 

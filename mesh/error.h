@@ -9,30 +9,30 @@ namespace gsp {
 /// Why an operation could not be done. Each maps to one exit status of the command line (`exit_status`).
 enum class Cause {
   // Unusable input, exit status 3.
-  CannotOpen,            ///< the file is missing or may not be read
-  UnknownFormat,         ///< the name's ending is none of the supported ones
-  Malformed,             ///< the bytes do not follow the format
-  Truncated,             ///< the file ends before what its header promises
-  IndexOutOfRange,       ///< a face names a vertex that does not exist
-  NoFaces,               ///< a point cloud, wire frame or empty file
-  NonFinite,             ///< a coordinate is NaN or infinite, or too large to square
-  NonManifoldEdge,       ///< an edge of more than two faces
-  NonManifoldVertex,     ///< a vertex whose faces form more than one fan
+  CannotOpen,               ///< the file is missing or may not be read
+  UnknownFormat,            ///< the name's ending is none of the supported ones
+  Malformed,                ///< the bytes do not follow the format
+  Truncated,                ///< the file ends before what its header promises
+  IndexOutOfRange,          ///< a face names a vertex that does not exist
+  NoFaces,                  ///< a point cloud, wire frame or empty file
+  NonFinite,                ///< a coordinate is NaN or infinite, or too large to square
+  NonManifoldEdge,          ///< an edge of more than two faces
+  NonManifoldVertex,        ///< a vertex whose faces form more than one fan
   InconsistentOrientation,  ///< two faces run through their common edge the same way, or the surface has one side only
-  DegenerateFace,        ///< a face that names a vertex twice
-  DuplicateFace,         ///< two faces on the same three vertices
-  ComponentTooSmall,     ///< a component with too few vertices to carry a base complex
+  DegenerateFace,           ///< a face that names a vertex twice
+  DuplicateFace,            ///< two faces on the same three vertices
+  ComponentTooSmall,        ///< a component with too few vertices to carry a base complex
   NoSubdivisionConnectivity,  ///< a plain mesh that was expected to be semi-regular
-  BadStream,             ///< a coded mesh whose header is damaged
+  BadStream,                  ///< a coded mesh whose header is damaged
   // The operation failed on usable input, exit status 1.
-  CannotWrite,           ///< the output could not be written whole
-  InvalidMap,            ///< no map with positive areas was found
-  SolverFailed,          ///< the linear system could not be factorized or solved
-  Cancelled,             ///< the progress callback asked to stop
-  ToolMissing,           ///< an external program (gnuplot) is not there
-  Internal,              ///< an invariant does not hold: a bug in gsp
+  CannotWrite,   ///< the output could not be written whole
+  InvalidMap,    ///< no map with positive areas was found
+  SolverFailed,  ///< the linear system could not be factorized or solved
+  Cancelled,     ///< the progress callback asked to stop
+  ToolMissing,   ///< an external program (gnuplot) is not there
+  Internal,      ///< an invariant does not hold: a bug in gsp
   // Wrong usage, exit status 2.
-  BadOption,             ///< an option's value is out of its range
+  BadOption,  ///< an option's value is out of its range
 };
 
 /// A short stable name, for tables and JSON: "non-manifold-edge".

@@ -10,9 +10,9 @@ namespace gsp {
 /// half-edge 3f + k runs from corner k to corner k+1 of face f. `twin` is -1 on a boundary. O(F) memory, O(F log F) to
 /// build. Undefined on non-manifold input: call `require_parameterizable` first.
 struct Halfedges {
-  std::vector<int> twin;      ///< #3F; -1 where the edge has one face
-  std::vector<int> outgoing;  ///< #V; a half-edge that leaves the vertex, on a boundary vertex the one without a
-                              ///< twin, whose face comes first counter-clockwise; -1 for isolated vertices
+  std::vector<int> twin;            ///< #3F; -1 where the edge has one face
+  std::vector<int> outgoing;        ///< #V; a half-edge that leaves the vertex, on a boundary vertex the one without a
+                                    ///< twin, whose face comes first counter-clockwise; -1 for isolated vertices
   const Triangle* faces = nullptr;  ///< of the mesh, which must stay where it is
 
   explicit Halfedges(const Mesh& mesh);

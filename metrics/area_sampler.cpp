@@ -19,12 +19,9 @@ struct Cell {
   double edge2_s, edge2_t;
 
   Cell inside(const Cell& outer) const {
-    return {outer.s + s * outer.edge1_s + t * outer.edge2_s,
-            outer.t + s * outer.edge1_t + t * outer.edge2_t,
-            edge1_s * outer.edge1_s + edge1_t * outer.edge2_s,
-            edge1_s * outer.edge1_t + edge1_t * outer.edge2_t,
-            edge2_s * outer.edge1_s + edge2_t * outer.edge2_s,
-            edge2_s * outer.edge1_t + edge2_t * outer.edge2_t};
+    return {outer.s + s * outer.edge1_s + t * outer.edge2_s,   outer.t + s * outer.edge1_t + t * outer.edge2_t,
+            edge1_s * outer.edge1_s + edge1_t * outer.edge2_s, edge1_s * outer.edge1_t + edge1_t * outer.edge2_t,
+            edge2_s * outer.edge1_s + edge2_t * outer.edge2_s, edge2_s * outer.edge1_t + edge2_t * outer.edge2_t};
   }
 };
 
@@ -66,9 +63,14 @@ struct AreaSampler::Span {
   Vec3 corner, edge1, edge2;
 };
 
-AreaSampler::AreaSampler(const Mesh& mesh, const std::vector<int>& order, std::vector<float> density, std::size_t samples,
-                         std::uint64_t seed)
-    : mesh_(mesh), order_(order), density_(std::move(density)), cumulative_(order.size() + 1, 0.0), samples_(samples), seed_(seed) {
+AreaSampler::AreaSampler(const Mesh& mesh, const std::vector<int>& order, std::vector<float> density,
+                         std::size_t samples, std::uint64_t seed)
+    : mesh_(mesh),
+      order_(order),
+      density_(std::move(density)),
+      cumulative_(order.size() + 1, 0.0),
+      samples_(samples),
+      seed_(seed) {
   constexpr std::size_t kGrain = 8192;
   parallel_for(order.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) cumulative_[i + 1] = face_area(mesh, order[i]);
@@ -86,8 +88,12 @@ AreaSampler::AreaSampler(const Mesh& mesh, const std::vector<int>& order, std::v
 AreaSampler::Span AreaSampler::span(std::size_t place) const {
   const Triangle& corners = mesh_.faces[order_[place]];
   const Vec3& corner = mesh_.positions[corners[0]];
-  return {cumulative_[place], cumulative_[place + 1], density_.empty() ? 1.0 : density_scale_ / density_[place],
-          corner, mesh_.positions[corners[1]] - corner, mesh_.positions[corners[2]] - corner};
+  return {cumulative_[place],
+          cumulative_[place + 1],
+          density_.empty() ? 1.0 : density_scale_ / density_[place],
+          corner,
+          mesh_.positions[corners[1]] - corner,
+          mesh_.positions[corners[2]] - corner};
 }
 
 std::size_t AreaSampler::place_of(double target) const {
@@ -111,7 +117,8 @@ void AreaSampler::sample(std::size_t begin, std::size_t end, Vec3* out, double* 
       if (target >= cumulative_[place + 1]) place = place_of(target);
       face = span(place);
     }
-    const auto [s, t] = triangle_point((target - face.begin) / (face.end - face.begin), static_cast<std::uint32_t>(bits));
+    const auto [s, t] =
+        triangle_point((target - face.begin) / (face.end - face.begin), static_cast<std::uint32_t>(bits));
     out[k - begin] = face.corner + s * face.edge1 + t * face.edge2;
     weight[k - begin] = face.weight;
   }

@@ -21,8 +21,8 @@ class AreaSampler {
               std::uint64_t seed);
 
   /// Points of the strata [begin, end) into out[0..end-begin), and the areas they stand for, in units of the mean one,
-  /// into weight[0..end-begin). `begin` is a multiple of kBlock, since the random numbers of each such block are its own.
-  /// Any thread.
+  /// into weight[0..end-begin). `begin` is a multiple of kBlock, since the random numbers of each such block are its
+  /// own. Any thread.
   void sample(std::size_t begin, std::size_t end, Vec3* out, double* weight) const;
 
   std::size_t samples() const { return samples_; }
@@ -41,7 +41,7 @@ class AreaSampler {
   std::size_t place_of(double target) const;
 
   std::vector<double> cumulative_;
-  double density_scale_ = 1.0;      ///< mean over area of the density
+  double density_scale_ = 1.0;  ///< mean over area of the density
   std::size_t samples_;
   std::uint64_t seed_;
 };

@@ -24,11 +24,13 @@ std::string text(const char* format, double a, double b) {
 }
 
 Rising rising(const BdCurve& curve, const BdOptions& options, const char* name, int& dropped) {
-  if (std::isnan(curve.ceiling_db)) throw Error(Cause::BadOption, std::string("the ceiling of the ") + name + " curve is no number");
+  if (std::isnan(curve.ceiling_db))
+    throw Error(Cause::BadOption, std::string("the ceiling of the ") + name + " curve is no number");
   std::vector<BdPoint> points = curve.points;
   for (const BdPoint& p : points)
     if (!(p.rate > 0.0) || !std::isfinite(p.rate) || !std::isfinite(p.psnr_db))
-      throw Error(Cause::BadOption, std::string("the ") + name + " curve has a point without a positive rate or a finite PSNR");
+      throw Error(Cause::BadOption,
+                  std::string("the ") + name + " curve has a point without a positive rate or a finite PSNR");
   std::sort(points.begin(), points.end(), [](const BdPoint& a, const BdPoint& b) {
     return a.rate != b.rate ? a.rate < b.rate : a.psnr_db > b.psnr_db;
   });
@@ -48,16 +50,20 @@ Rising rising(const BdCurve& curve, const BdOptions& options, const char* name, 
                                       std::to_string(least));
   result.top = std::min(result.psnr.back(), curve.ceiling_db - options.ceiling_margin_db);
   if (!(result.top > result.psnr.front()))
-    throw Error(Cause::BadOption, std::string("the ") + name + text(" curve starts at %.6g dB, within %.6g dB of its ceiling",
-                                                                    result.psnr.front(), options.ceiling_margin_db));
+    throw Error(Cause::BadOption, std::string("the ") + name +
+                                      text(" curve starts at %.6g dB, within %.6g dB of its ceiling",
+                                           result.psnr.front(), options.ceiling_margin_db));
   return result;
 }
 
 CubicInterpolant interpolant(BdInterpolation kind, const std::vector<double>& x, const std::vector<double>& y) {
   switch (kind) {
-    case BdInterpolation::Akima: return CubicInterpolant::akima(x, y);
-    case BdInterpolation::Pchip: return CubicInterpolant::pchip(x, y);
-    case BdInterpolation::Cubic: break;
+    case BdInterpolation::Akima:
+      return CubicInterpolant::akima(x, y);
+    case BdInterpolation::Pchip:
+      return CubicInterpolant::pchip(x, y);
+    case BdInterpolation::Cubic:
+      break;
   }
   return CubicInterpolant::least_squares(x, y);
 }
@@ -77,16 +83,16 @@ BdAverage average(const CubicInterpolant& anchor, double anchor_top, const Cubic
   result.from = std::max(anchor.front(), test.front());
   result.to = std::min(anchor_top, test_top);
   if (!(result.to > result.from))
-    throw Error(Cause::BadOption,
-                std::string("the curves do not overlap in ") + over.name + " under their ceilings: " +
-                    text("%.6g to %.6g", over.shown(anchor.front()), over.shown(anchor_top)) + " and " +
-                    text("%.6g to %.6g", over.shown(test.front()), over.shown(test_top)));
+    throw Error(Cause::BadOption, std::string("the curves do not overlap in ") + over.name + " under their ceilings: " +
+                                      text("%.6g to %.6g", over.shown(anchor.front()), over.shown(anchor_top)) +
+                                      " and " + text("%.6g to %.6g", over.shown(test.front()), over.shown(test_top)));
   const double length = result.to - result.from;
   result.overlap_share = length / (std::max(anchor_top, test_top) - std::min(anchor.front(), test.front()));
   result.value = (test.integral(result.from, result.to) - anchor.integral(result.from, result.to)) / length;
   result.small_overlap = result.overlap_share < kSmallOverlap;
   if (result.small_overlap)
-    result.warning = std::string("the curves share ") + text("%.0f%% of their range in ", 100.0 * result.overlap_share, 0.0) + over.name +
+    result.warning = std::string("the curves share ") +
+                     text("%.0f%% of their range in ", 100.0 * result.overlap_share, 0.0) + over.name +
                      ": the average says little about the rest";
   return result;
 }
@@ -100,15 +106,19 @@ void require_finite(const BdAverage& average) {
 
 const char* interpolation_name(BdInterpolation interpolation) {
   switch (interpolation) {
-    case BdInterpolation::Akima: return "akima";
-    case BdInterpolation::Pchip: return "pchip";
-    case BdInterpolation::Cubic: break;
+    case BdInterpolation::Akima:
+      return "akima";
+    case BdInterpolation::Pchip:
+      return "pchip";
+    case BdInterpolation::Cubic:
+      break;
   }
   return "cubic";
 }
 
 BdResult bd_compare(const BdCurve& anchor_curve, const BdCurve& test_curve, const BdOptions& options) {
-  if (!(options.ceiling_margin_db >= 0.0)) throw Error(Cause::BadOption, "the margin under the ceiling is at least 0 dB");
+  if (!(options.ceiling_margin_db >= 0.0))
+    throw Error(Cause::BadOption, "the margin under the ceiling is at least 0 dB");
   BdResult result;
   const Rising anchor = rising(anchor_curve, options, "anchor", result.dropped_points);
   const Rising test = rising(test_curve, options, "test", result.dropped_points);
@@ -121,11 +131,12 @@ BdResult bd_compare(const BdCurve& anchor_curve, const BdCurve& test_curve, cons
 
   // A curve counts up to the rate at which it reaches the top of its PSNR range.
   const auto top_rate = [](const Rising& curve, const CubicInterpolant& rate) {
-    return curve.top >= curve.psnr.back() ? curve.log_rate.back() : std::min(rate.value(curve.top), curve.log_rate.back());
+    return curve.top >= curve.psnr.back() ? curve.log_rate.back()
+                                          : std::min(rate.value(curve.top), curve.log_rate.back());
   };
-  result.psnr = average(interpolant(options.interpolation, anchor.log_rate, anchor.psnr), top_rate(anchor, anchor_rate),
-                        interpolant(options.interpolation, test.log_rate, test.psnr), top_rate(test, test_rate),
-                        kLogRate);
+  result.psnr =
+      average(interpolant(options.interpolation, anchor.log_rate, anchor.psnr), top_rate(anchor, anchor_rate),
+              interpolant(options.interpolation, test.log_rate, test.psnr), top_rate(test, test_rate), kLogRate);
   result.psnr.from = std::pow(10.0, result.psnr.from);
   result.psnr.to = std::pow(10.0, result.psnr.to);
   require_finite(result.psnr);

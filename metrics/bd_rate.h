@@ -8,7 +8,7 @@ namespace gsp {
 
 /// One point of a rate-distortion curve.
 struct BdPoint {
-  double rate = 0.0;     ///< bytes, bits or bits per vertex, the same for both curves; positive
+  double rate = 0.0;  ///< bytes, bits or bits per vertex, the same for both curves; positive
   double psnr_db = 0.0;
 };
 
@@ -34,10 +34,10 @@ struct BdOptions {
 /// One average over the range where both curves are known.
 struct BdAverage {
   double value = 0.0;
-  double from = 0.0, to = 0.0;   ///< the range: dB for BD-rate, rate for BD-PSNR
-  double overlap_share = 0.0;    ///< of the range that either curve covers (dB or log rate); in (0, 1]
-  bool small_overlap = false;    ///< share under kSmallOverlap: the average says little about the curves
-  std::string warning;           ///< a sentence for people where the overlap is small, else empty
+  double from = 0.0, to = 0.0;  ///< the range: dB for BD-rate, rate for BD-PSNR
+  double overlap_share = 0.0;   ///< of the range that either curve covers (dB or log rate); in (0, 1]
+  bool small_overlap = false;   ///< share under kSmallOverlap: the average says little about the curves
+  std::string warning;          ///< a sentence for people where the overlap is small, else empty
 };
 
 inline constexpr double kSmallOverlap = 0.5;
@@ -48,9 +48,10 @@ struct BdResult {
   int dropped_points = 0;  ///< of both curves: no better than one of at most their rate, so not on the curve
 };
 
-/// Bjøntegaard deltas (VCEG-M33) on the logarithm of the rate. Points that another one of the same curve beats at no more
-/// rate are dropped. Every number of the result is finite. Throws Error(BadOption) where a point is not finite, a rate not
-/// positive, a curve has fewer than 2 points left (4 for Cubic), or the curves do not overlap under their ceilings.
+/// Bjøntegaard deltas (VCEG-M33) on the logarithm of the rate. Points that another one of the same curve beats at no
+/// more rate are dropped. Every number of the result is finite. Throws Error(BadOption) where a point is not finite, a
+/// rate not positive, a curve has fewer than 2 points left (4 for Cubic), or the curves do not overlap under their
+/// ceilings.
 BdResult bd_compare(const BdCurve& anchor, const BdCurve& test, const BdOptions& options);
 
 }  // namespace gsp

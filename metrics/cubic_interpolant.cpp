@@ -86,7 +86,8 @@ std::size_t CubicInterpolant::interval(double x) const {
 double CubicInterpolant::value(double x) const {
   const std::size_t i = interval(x);
   const double h = x_[i + 1] - x_[i], t = (x - x_[i]) / h, s = 1.0 - t;
-  return s * s * (1.0 + 2.0 * t) * y_[i] + t * t * (3.0 - 2.0 * t) * y_[i + 1] + h * t * s * (s * slopes_[i] - t * slopes_[i + 1]);
+  return s * s * (1.0 + 2.0 * t) * y_[i] + t * t * (3.0 - 2.0 * t) * y_[i + 1] +
+         h * t * s * (s * slopes_[i] - t * slopes_[i + 1]);
 }
 
 double CubicInterpolant::integral_within(std::size_t i, double offset) const {

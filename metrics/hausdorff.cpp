@@ -38,7 +38,9 @@ struct Piece {
   double bound = 0.0;
   std::size_t number = 0;  ///< of appearance: makes the order of equal bounds a fixed one
 
-  friend bool operator<(const Piece& a, const Piece& b) { return a.bound != b.bound ? a.bound < b.bound : a.number > b.number; }
+  friend bool operator<(const Piece& a, const Piece& b) {
+    return a.bound != b.bound ? a.bound < b.bound : a.number > b.number;
+  }
 };
 
 class Bounder {
@@ -58,13 +60,14 @@ class Bounder {
       const Probe &from = c[k], &next = c[(k + 1) % 3], &last = c[(k + 2) % 3];
       const double reach = std::max((next.point - from.point).norm(), (last.point - from.point).norm());
       bound = std::min(bound, from.distance + reach);
-      bound = std::min(bound, std::max({from.distance, distance_to(from.place, next.point), distance_to(from.place, last.point)}));
+      bound = std::min(
+          bound, std::max({from.distance, distance_to(from.place, next.point), distance_to(from.place, last.point)}));
     }
     return bound;
   }
 
-  /// The same with the triangle nearest to the piece's middle, and with pairs of triangles. `middle` may raise the lower
-  /// bound of the whole.
+  /// The same with the triangle nearest to the piece's middle, and with pairs of triangles. `middle` may raise the
+  /// lower bound of the whole.
   double bound(const std::array<Probe, 3>& c, const Probe& middle) const {
     double reach = 0.0, at_middle = 0.0;
     for (const Probe& corner : c) {
@@ -96,13 +99,14 @@ class Bounder {
       const int next = (k + 1) % 3;
       const bool nearer_first = to_first[k] <= to_second[k];
       if (nearer_first == (to_first[next] <= to_second[next])) continue;
-      bound = std::max(bound, crossing(c[nearer_first ? k : next].point, c[nearer_first ? next : k].point, first, second));
+      bound =
+          std::max(bound, crossing(c[nearer_first ? k : next].point, c[nearer_first ? next : k].point, first, second));
     }
     return bound;
   }
 
-  /// The larger of the distances to two triangles at a point of the segment from `a`, nearer to the first, to `b`, nearer
-  /// to the second, where they are about the same.
+  /// The larger of the distances to two triangles at a point of the segment from `a`, nearer to the first, to `b`,
+  /// nearer to the second, where they are about the same.
   double crossing(Vec3 a, Vec3 b, int first, int second) const {
     constexpr int kHalvings = 24;
     double larger = 0.0;
@@ -130,7 +134,8 @@ class Search {
   DistanceBounds run(const std::string& stage, Progress& progress) {
     constexpr std::size_t kReportEvery = 1 << 16;
     for (; !queue_.empty() && !closed(queue_.top().bound) && number_ < options_.most_pieces; ++steps_) {
-      if (steps_ % kReportEvery == 0) progress.report(stage, static_cast<double>(number_) / static_cast<double>(options_.most_pieces));
+      if (steps_ % kReportEvery == 0)
+        progress.report(stage, static_cast<double>(number_) / static_cast<double>(options_.most_pieces));
       const Piece piece = queue_.top();
       queue_.pop();
       split(piece);
@@ -164,7 +169,9 @@ class Search {
         if (used[v]) hint = (probes[v] = bounder_.probe(from.positions[v], hint)).place;
     });
     for (const Probe& p : probes) lower_ = std::max(lower_, p.distance);
-    const auto corners = [&](const Triangle& t) { return std::array<Probe, 3>{probes[t[0]], probes[t[1]], probes[t[2]]}; };
+    const auto corners = [&](const Triangle& t) {
+      return std::array<Probe, 3>{probes[t[0]], probes[t[1]], probes[t[2]]};
+    };
     std::vector<double> bounds(from.faces.size());
     parallel_for(bounds.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t f = begin; f < end; ++f) bounds[f] = bounder_.corner_bound(corners(from.faces[f]));
@@ -187,7 +194,9 @@ class Search {
     add(edges, bound);
   }
 
-  void add(const std::array<Probe, 3>& corners, double parent) { push(corners, std::min(parent, bounder_.corner_bound(corners))); }
+  void add(const std::array<Probe, 3>& corners, double parent) {
+    push(corners, std::min(parent, bounder_.corner_bound(corners)));
+  }
 
   Probe probe(const Vec3& point, int hint) {
     const Probe result = bounder_.probe(point, hint);

@@ -24,8 +24,9 @@ struct HausdorffBounds {
 };
 
 struct HausdorffOptions {
-  double tolerance = 0.01;              ///< in [1e-6, 1]: stop where upper <= (1 + tolerance) * lower
-  std::size_t most_pieces = 20'000'000; ///< pieces of triangles looked at in a direction; bounds are wider where they run out
+  double tolerance = 0.01;  ///< in [1e-6, 1]: stop where upper <= (1 + tolerance) * lower
+  std::size_t most_pieces =
+      20'000'000;  ///< pieces of triangles looked at in a direction; bounds are wider where they run out
 };
 
 /// Encloses the Hausdorff distance by branch and bound over the triangles of one surface against the tree of the other:

@@ -13,7 +13,8 @@ Vec3 orthogonal(const Vec3& u) {
 }
 }  // namespace
 
-TriangleFrame::TriangleFrame(const Vec3& a, const Vec3& b, const Vec3& c) : x_axis(Vec3::UnitX()), y_axis(Vec3::UnitY()) {
+TriangleFrame::TriangleFrame(const Vec3& a, const Vec3& b, const Vec3& c)
+    : x_axis(Vec3::UnitX()), y_axis(Vec3::UnitY()) {
   const Vec3* corner[3] = {&a, &b, &c};
   const double squared[3] = {(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()};
   const int longest = static_cast<int>(std::max_element(squared, squared + 3) - squared);

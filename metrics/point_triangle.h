@@ -8,8 +8,8 @@
 namespace gsp {
 
 /// A triangle in its own orthonormal frame: the longest edge from the origin along x, the third corner at (x2, height).
-/// With the longest edge as axis the frame is backward stable: the distance is that to a triangle whose corners moved by
-/// a few units in the last place, however thin it is. A triangle without area acts as its longest edge, one without
+/// With the longest edge as axis the frame is backward stable: the distance is that to a triangle whose corners moved
+/// by a few units in the last place, however thin it is. A triangle without area acts as its longest edge, one without
 /// extent as a point.
 struct TriangleFrame {
   Vec3 origin, x_axis, y_axis;

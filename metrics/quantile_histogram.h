@@ -9,8 +9,9 @@
 
 namespace gsp {
 
-/// Weighted quantiles of non-negative numbers that many threads add: bins are the leading bits of the number as a float,
-/// so each is 2^-11 of its value wide, and weights are summed as integers, so the order of adding does not matter.
+/// Weighted quantiles of non-negative numbers that many threads add: bins are the leading bits of the number as a
+/// float, so each is 2^-11 of its value wide, and weights are summed as integers, so the order of adding does not
+/// matter.
 class QuantileHistogram {
  public:
   /// Numbers are taken relative to `unit` > 0; those under 1e-38 of it count as none.
@@ -19,7 +20,8 @@ class QuantileHistogram {
   /// `weight` in [0, 16]; up to 1e9 of them. Any thread.
   void add(double value, double weight) {
     const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value / unit_));
-    bins_[std::min(bits >> kDropped, kBins - 1)].fetch_add(static_cast<std::uint64_t>(weight * kOne + 0.5), std::memory_order_relaxed);
+    bins_[std::min(bits >> kDropped, kBins - 1)].fetch_add(static_cast<std::uint64_t>(weight * kOne + 0.5),
+                                                           std::memory_order_relaxed);
   }
 
   /// The value below which `share` of the weight lies, linear within a bin; 0 where nothing was added.

@@ -80,8 +80,8 @@ std::vector<double> smoothed_sums(const std::vector<double>& deviations) {
 
 }  // namespace
 
-std::vector<float> sample_density(const Mesh& from, const TriangleTree& from_tree, const TriangleTree& to, std::size_t samples,
-                                  std::uint64_t seed) {
+std::vector<float> sample_density(const Mesh& from, const TriangleTree& from_tree, const TriangleTree& to,
+                                  std::size_t samples, std::uint64_t seed) {
   const std::size_t pilot = std::min(samples / kPilotShare, kMostPilots);
   if (pilot < 4 * kWindow) return {};
   const std::vector<int>& order = from_tree.order();

@@ -18,7 +18,7 @@ constexpr std::size_t kQuantileSamples = 1 << 20;
 /// The pilot's random numbers are not those of the samples.
 constexpr std::uint64_t kPilotSeed = 0x5851f42d4c957f2dULL;
 /// Below this much of the diagonal a distance is rounding.
-constexpr double kRounding = 1e-14;
+constexpr double kRmsRounding = 1e-14;
 
 /// Sums over one block of strata. They are added in block order, so the total does not depend on the threads.
 struct Partial {
@@ -93,8 +93,8 @@ OneWayDistance measure(const AreaSampler& sampler, const TriangleTree& to, doubl
   for (std::size_t first = 0; first < blocks; first += round) {
     parallel_for(std::min(round, blocks - first), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = first + begin; b < first + end; ++b)
-        partials[b] = measure_block(sampler, to, b * AreaSampler::kBlock, std::min(samples, (b + 1) * AreaSampler::kBlock),
-                                    histogram);
+        partials[b] = measure_block(sampler, to, b * AreaSampler::kBlock,
+                                    std::min(samples, (b + 1) * AreaSampler::kBlock), histogram);
     });
     progress.report(stage, static_cast<double>(std::min(first + round, blocks)) / static_cast<double>(blocks));
   }
@@ -105,17 +105,19 @@ OneWayDistance measure(const AreaSampler& sampler, const TriangleTree& to, doubl
 
 }  // namespace
 
-OneWayDistance sampled_distance(const Mesh& from, const TriangleTree& from_tree, const TriangleTree& to, double diagonal,
-                                const DistanceOptions& options, const std::string& stage, Progress& progress) {
+OneWayDistance sampled_distance(const Mesh& from, const TriangleTree& from_tree, const TriangleTree& to,
+                                double diagonal, const DistanceOptions& options, const std::string& stage,
+                                Progress& progress) {
   std::size_t samples = options.samples;
   while (true) {
     progress.report(stage, 0.0);
-    const AreaSampler sampler(from, from_tree.order(), sample_density(from, from_tree, to, samples, options.seed ^ kPilotSeed),
-                              samples, options.seed);
+    const AreaSampler sampler(from, from_tree.order(),
+                              sample_density(from, from_tree, to, samples, options.seed ^ kPilotSeed), samples,
+                              options.seed);
     const OneWayDistance result = measure(sampler, to, diagonal, stage, progress);
     const double error = result.standard_error_db();
     if (options.tolerance_db == 0.0 || error <= options.tolerance_db || samples >= options.most_samples ||
-        result.rms <= kRounding * diagonal)
+        result.rms <= kRmsRounding * diagonal)
       return result;
     // The error falls at least as fast as the root of the samples; a tenth more makes one further round likely to do.
     const double factor = std::clamp(1.1 * std::pow(error / options.tolerance_db, 2), 1.5, 100.0);

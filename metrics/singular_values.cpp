@@ -4,8 +4,8 @@
 
 namespace gsp {
 
-/// Singular values from the metric tensor of the affine map (Sander et al. 2001), written without its cancellation: the sum
-/// and difference of squares of (s1 + s2) and (s1 - s2) come from the Jacobian in the face's own frame.
+/// Singular values from the metric tensor of the affine map (Sander et al. 2001), written without its cancellation: the
+/// sum and difference of squares of (s1 + s2) and (s1 - s2) come from the Jacobian in the face's own frame.
 FaceMap face_map(const Parameterization& map, int face) {
   const Triangle& t = map.surface.faces[face];
   const auto& c = map.face_corners[face];
@@ -19,7 +19,8 @@ FaceMap face_map(const Parameterization& map, int face) {
   if (!(result.surface_area > 0.0) || twice_chart == 0.0 || length == 0.0) return result;
   // The face in its plane: a along x, b at (bx, by). Then J = [a b] [u v]^-1.
   const double bx = b.dot(a) / length, by = 2.0 * result.surface_area / length;
-  const double xx = (length * v.imag() - bx * u.imag()) / twice_chart, xy = (bx * u.real() - length * v.real()) / twice_chart;
+  const double xx = (length * v.imag() - bx * u.imag()) / twice_chart,
+               xy = (bx * u.real() - length * v.real()) / twice_chart;
   const double yx = -by * u.imag() / twice_chart, yy = by * u.real() / twice_chart;
   const double sum = std::hypot(xx + yy, yx - xy), difference = std::hypot(xx - yy, yx + xy);
   result.largest = 0.5 * (sum + difference);

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "param/parameterization.h"
+#include "param/map/parameterization.h"
 
 namespace gsp {
 
@@ -10,7 +10,7 @@ namespace gsp {
 struct FaceMap {
   double largest = 0.0, smallest = 0.0;  ///< singular values s1 >= s2; 0 where the face has no area here or there
   double surface_area = 0.0;
-  double chart_area = 0.0;               ///< signed
+  double chart_area = 0.0;  ///< signed
 
   bool counted() const { return largest > 0.0; }
 };

@@ -81,7 +81,8 @@ double quadratic_jump(const Diamond& d) {
   const Complex along = (d.z_to - d.z_from) / length;
   const Complex first = (d.z_first - d.z_from) / along, second = (d.z_second - d.z_from) / along;
   const double a = first.real(), h = first.imag(), b = second.real(), k = -second.imag();
-  return std::sqrt(0.5 * (std::pow(a * (a - length) / h + b * (b - length) / k, 2) + std::pow(h + k, 2)) + std::pow(a - b, 2));
+  return std::sqrt(0.5 * (std::pow(a * (a - length) / h + b * (b - length) / k, 2) + std::pow(h + k, 2)) +
+                   std::pow(a - b, 2));
 }
 
 /// Distance in the chart from the middle of the edge to the nearest corner; every corner about is a lattice point.
@@ -109,7 +110,7 @@ class BesideCorners {
     for (const auto& [number, ring] : rings_) {
       if (ring.inside.count < kFewest) continue;
       const double expected = ring.inside.sum / ring.inside.weight;
-      if (expected <= std::log(2.0 * kRounding)) continue;
+      if (expected <= std::log(2.0 * kNoDerivative)) continue;
       excess += ring.across.sum - ring.across.weight * expected;
       weight += ring.across.weight;
     }
@@ -119,14 +120,14 @@ class BesideCorners {
 
  private:
   static constexpr double kRingsPerOctave = 4.0;
-  static constexpr double kRounding = 1e-7;  ///< below that a second derivative is none
-  static constexpr int kFewest = 16;         ///< edges whose mean says something
+  static constexpr double kNoDerivative = 1e-7;  ///< below that a second derivative is none
+  static constexpr int kFewest = 16;             ///< edges whose mean says something
 
   struct LogSum {
     double sum = 0.0, weight = 0.0;
     int count = 0;
     void add(const Weighted& w) {
-      sum += w.weight * std::log(std::max(w.value, kRounding));
+      sum += w.weight * std::log(std::max(w.value, kNoDerivative));
       weight += w.weight;
       ++count;
     }
@@ -144,7 +145,8 @@ bool inside_triangle(const std::array<Complex, 4>& points) {
   });
 }
 
-/// Whether both faces lie in one base triangle: that of the chart or, for faces given in a neighbour's chart, one beside it.
+/// Whether both faces lie in one base triangle: that of the chart or, for faces given in a neighbour's chart, one
+/// beside it.
 bool in_one_patch(const Parameterization& map, const Diamond& d) {
   const std::array<Complex, 4> points = {d.z_from, d.z_to, d.z_first, d.z_second};
   if (inside_triangle(points)) return true;

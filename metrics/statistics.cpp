@@ -20,7 +20,8 @@ double quantile(const std::vector<Weighted>& sorted, double total, double share)
 Statistics statistics(std::vector<Weighted> values) {
   std::erase_if(values, [](const Weighted& w) { return !(w.weight > 0.0); });
   if (values.empty()) return {};
-  std::stable_sort(values.begin(), values.end(), [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
+  std::stable_sort(values.begin(), values.end(),
+                   [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
   double total = 0.0, sum = 0.0;
   for (const Weighted& w : values) {
     total += w.weight;

@@ -46,15 +46,16 @@ SurfaceDistance surface_distance(const Mesh& a, const Mesh& b, const DistanceOpt
   return surface_distance(a, SurfaceTree(a), b, options, progress);
 }
 
-SurfaceDistance surface_distance(const Mesh& a, const SurfaceTree& tree_a, const Mesh& b, const DistanceOptions& options,
-                                 Progress& progress) {
+SurfaceDistance surface_distance(const Mesh& a, const SurfaceTree& tree_a, const Mesh& b,
+                                 const DistanceOptions& options, Progress& progress) {
   return surface_distance(a, tree_a, b, SurfaceTree(b), options, progress);
 }
 
 SurfaceDistance surface_distance(const Mesh& a, const SurfaceTree& tree_a, const Mesh& b, const SurfaceTree& tree_b,
                                  const DistanceOptions& options, Progress& progress) {
   if (options.samples < 1) throw Error(Cause::BadOption, "the surface distance needs at least one sample");
-  if (!(options.tolerance_db >= 0.0)) throw Error(Cause::BadOption, "the tolerance is a number of decibels, at least 0");
+  if (!(options.tolerance_db >= 0.0))
+    throw Error(Cause::BadOption, "the tolerance is a number of decibels, at least 0");
   SurfaceDistance result;
   result.diagonal = bounding_box_diagonal(a);
   const TriangleTree &a_tree = tree_a.impl().tree, &b_tree = tree_b.impl().tree;

@@ -44,8 +44,8 @@ struct DistanceOptions {
 struct OneWayDistance {
   double mean = 0.0;
   double rms = 0.0;
-  double quantile95 = 0.0;    ///< 95% of the area is nearer; from up to 2^20 of the samples, in bins 0.025% wide
-  double hausdorff = 0.0;     ///< largest over the samples: a lower bound of the true one (hausdorff.h encloses it)
+  double quantile95 = 0.0;  ///< 95% of the area is nearer; from up to 2^20 of the samples, in bins 0.025% wide
+  double hausdorff = 0.0;   ///< largest over the samples: a lower bound of the true one (hausdorff.h encloses it)
   /// Of the RMS, from the squared differences between neighbouring strata; their trend makes it err to the safe side.
   double rms_standard_error = 0.0;
   std::size_t samples = 0;
@@ -58,11 +58,11 @@ struct SurfaceDistance {
   OneWayDistance backward;  ///< from b to a
   double diagonal = 0.0;    ///< of a's bounding box: the peak of PSNR
 
-  double rms() const;        ///< the larger of the two directions
+  double rms() const;  ///< the larger of the two directions
   double mean() const;
   double quantile95() const;
   double hausdorff() const;
-  double psnr_db() const;    ///< 20·log10(diagonal / rms()); infinite for equal surfaces
+  double psnr_db() const;            ///< 20·log10(diagonal / rms()); infinite for equal surfaces
   double standard_error_db() const;  ///< of the direction with the larger RMS
 };
 
@@ -73,8 +73,8 @@ struct SurfaceDistance {
 SurfaceDistance surface_distance(const Mesh& a, const Mesh& b, const DistanceOptions& options, Progress& progress);
 
 /// The same where the trees are at hand, for many comparisons against one reference.
-SurfaceDistance surface_distance(const Mesh& a, const SurfaceTree& tree_a, const Mesh& b, const DistanceOptions& options,
-                                 Progress& progress);
+SurfaceDistance surface_distance(const Mesh& a, const SurfaceTree& tree_a, const Mesh& b,
+                                 const DistanceOptions& options, Progress& progress);
 
 /// The same where both trees are at hand.
 SurfaceDistance surface_distance(const Mesh& a, const SurfaceTree& tree_a, const Mesh& b, const SurfaceTree& tree_b,

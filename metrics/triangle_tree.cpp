@@ -10,8 +10,8 @@
 #include "mesh/parallel.h"
 #include "mesh/topology.h"
 
-/// Compiles a function with all it calls again for AVX2 and AVX-512, chosen when the program starts. The bits are the same:
-/// lanes work alone, in the same order of operations, and contraction is off.
+/// Compiles a function with all it calls again for AVX2 and AVX-512, chosen when the program starts. The bits are the
+/// same: lanes work alone, in the same order of operations, and contraction is off.
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__)
 #define GSP_VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default"), flatten))
 #else
@@ -189,7 +189,8 @@ float TriangleTree::bound(const double* squared) const {
 void TriangleTree::distances(const Node& node, const QueryBox& box, float* squared) {
   Lanes sum = {};
   for (int k = 0; k < 3; ++k) {
-    const Lanes low = *reinterpret_cast<const Lanes*>(node.low[k]), high = *reinterpret_cast<const Lanes*>(node.high[k]);
+    const Lanes low = *reinterpret_cast<const Lanes*>(node.low[k]),
+                high = *reinterpret_cast<const Lanes*>(node.high[k]);
     const Lanes below = low - box.high[k], above = box.low[k] - high;
     Lanes gap = below > above ? below : above;
     const Lanes zero = {};

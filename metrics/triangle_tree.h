@@ -11,10 +11,10 @@ namespace gsp {
 /// Points that `TriangleTree::nearest` takes at once, to share one walk through the tree.
 inline constexpr int kGroupSize = 8;
 
-/// Bounding volume hierarchy over the triangles of a mesh: a complete tree of sixteen children a node over triangles sorted
-/// by median splits, so that positions stand for pointers. Boxes are kept in float, in coordinates scaled to [-1, 1] and
-/// rounded outward, so a box never hides a nearer triangle; triangles are kept in double.
-/// About 140 bytes a triangle. O(F log F) to build, on all threads.
+/// Bounding volume hierarchy over the triangles of a mesh: a complete tree of sixteen children a node over triangles
+/// sorted by median splits, so that positions stand for pointers. Boxes are kept in float, in coordinates scaled to
+/// [-1, 1] and rounded outward, so a box never hides a nearer triangle; triangles are kept in double. About 140 bytes a
+/// triangle. O(F log F) to build, on all threads.
 class TriangleTree {
  public:
   /// Throws the errors of `require_finite_surface`.
@@ -27,8 +27,8 @@ class TriangleTree {
   /// Longest edge of the triangle at a place.
   double size(int place) const { return frames_[place].length; }
 
-  /// squared[i] = squared distance of point i to the surface. `hint` is a place in the order to start from (any valid one
-  /// gives the same distances) and receives the nearest one of the last point.
+  /// squared[i] = squared distance of point i to the surface. `hint` is a place in the order to start from (any valid
+  /// one gives the same distances) and receives the nearest one of the last point.
   void nearest(const PointGroup<kGroupSize>& points, double* squared, int& hint) const;
   double nearest(const Vec3& point, int& hint) const;
 

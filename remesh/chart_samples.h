@@ -35,8 +35,8 @@ class ChartSamples {
   /// O(pieces + samples).
   ChartSamples(const Parameterization& map, const std::vector<FacePiece>& pieces, int n);
 
-  /// Points that no face holds, as a map with folds leaves them, take the nearest place in the faces of the points around
-  /// them, spreading inward. They stay without a face where the whole chart is.
+  /// Points that no face holds, as a map with folds leaves them, take the nearest place in the faces of the points
+  /// around them, spreading inward. They stay without a face where the whole chart is.
   void fill_gaps();
 
   const SurfacePoint& at(int i, int j) const { return samples_[lattice_index(n_, i, j)].point; }

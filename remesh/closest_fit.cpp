@@ -73,7 +73,8 @@ class ClosestFit {
     }
     for (int e = 0; e < finest_.edge_count(); ++e) {
       const auto [a, b] = finest_.edges[e];
-      system.add_spring(e, effort_.stiffness, -effort_.stiffness * (positions_[a] - start_[a] - positions_[b] + start_[b]));
+      system.add_spring(e, effort_.stiffness,
+                        -effort_.stiffness * (positions_[a] - start_[a] - positions_[b] + start_[b]));
     }
     for (std::size_t v = 0; v < positions_.size(); ++v)
       system.add_spring_to_place(static_cast<int>(v), kTether, -kTether * (positions_[v] - start_[v]));
@@ -122,7 +123,8 @@ class ClosestFit {
 }  // namespace
 
 std::vector<Vec3> fit_closest(const SubdivisionLevel& finest, const FoldGuard& guard,
-                              std::vector<SurfaceSample> samples, const FitEffort& effort, const std::vector<Vec3>& start) {
+                              std::vector<SurfaceSample> samples, const FitEffort& effort,
+                              const std::vector<Vec3>& start) {
   // In units of the extent, a power of two, so that no square overflows.
   double extent = 0.0;
   for (const Vec3& p : start) extent = std::max(extent, (p - start[0]).cwiseAbs().maxCoeff());

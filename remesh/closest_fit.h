@@ -32,6 +32,7 @@ struct FitEffort {
 /// what `guard` holds. A rigid motion or scaling of all moves the result, up to rounding. The same bits on any number
 /// of threads, which share the search for nearest places. O(V + samples).
 std::vector<Vec3> fit_closest(const SubdivisionLevel& finest, const FoldGuard& guard,
-                              std::vector<SurfaceSample> samples, const FitEffort& effort, const std::vector<Vec3>& start);
+                              std::vector<SurfaceSample> samples, const FitEffort& effort,
+                              const std::vector<Vec3>& start);
 
 }  // namespace gsp

@@ -40,8 +40,8 @@ std::optional<Complex> anchor(const Parameterization& map, int face) {
   return found;
 }
 
-/// Walks straight from `start`, a point of the face's chart, to `goal` in the same coordinates, and stops in the base face
-/// that holds the goal, or at a boundary.
+/// Walks straight from `start`, a point of the face's chart, to `goal` in the same coordinates, and stops in the base
+/// face that holds the goal, or at a boundary.
 Stand walk(const BaseComplex& base, int chart, Complex start, Complex goal) {
   Stand stand{chart, {}};
   int entry = -1;

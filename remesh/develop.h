@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "param/parameterization.h"
+#include "param/map/parameterization.h"
 
 namespace gsp {
 
@@ -15,10 +15,10 @@ struct FacePiece {
 
 /// Appends a piece for each base face that face `face` reaches, first the one that holds its centroid.
 ///
-/// The face is unfolded over the base by flooding: it enters a neighbour where it crosses the common edge. No base corner
-/// lies inside a face of a valid map and the face is convex, so what it covers of a base triangle is connected through
-/// the edge it entered by: beside a corner of any valence each point is found in the right sector, without walking to
-/// it. On a map with folds the flood ends after `kMaxPieces`. Cost: the number of pieces.
+/// The face is unfolded over the base by flooding: it enters a neighbour where it crosses the common edge. No base
+/// corner lies inside a face of a valid map and the face is convex, so what it covers of a base triangle is connected
+/// through the edge it entered by: beside a corner of any valence each point is found in the right sector, without
+/// walking to it. On a map with folds the flood ends after `kMaxPieces`. Cost: the number of pieces.
 void develop_face(const Parameterization& map, int face, std::vector<FacePiece>& pieces);
 
 inline constexpr int kMaxPieces = 256;

@@ -49,11 +49,11 @@ int fit_steps(const Parameterization& map, int level) {
 }
 
 FitEffort effort_of(Positions positions) {
-  // A third of the stiffness costs up to 0.5 dB at 8 and 16 KB on Venus and the bunny, twice as much gives the same curves with
-  // ceilings 0.5 dB lower.
+  // A third of the stiffness costs up to 0.5 dB at 8 and 16 KB on Venus and the bunny, twice as much gives the same
+  // curves with ceilings 0.5 dB lower.
   constexpr FitEffort kFitted{5e-3};
-  // With three times as much the remeshing error of Venus and the bunny is 4% larger. The error is what counts here, so the
-  // rounds go on for less.
+  // With three times as much the remeshing error of Venus and the bunny is 4% larger. The error is what counts here, so
+  // the rounds go on for less.
   constexpr FitEffort kClosest{5e-5, 0.01, 20};
   return positions == Positions::Closest ? kClosest : kFitted;
 }

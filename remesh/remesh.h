@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mesh/progress.h"
-#include "param/parameterization.h"
+#include "param/map/parameterization.h"
 #include "remesh/semiregular.h"
 
 namespace gsp {

@@ -4,7 +4,7 @@
 
 #include "experiments/figures/render.h"
 #include "metrics/picture.h"
-#include "param/parameterization.h"
+#include "param/map/parameterization.h"
 
 namespace gsp {
 

@@ -11,7 +11,7 @@
 #include "mesh/ply.h"
 #include "mesh/topology.h"
 #include "metrics/surface_distance.h"
-#include "param/param_file.h"
+#include "param/map/param_file.h"
 #include "remesh/semiregular_file.h"
 
 namespace gsp {

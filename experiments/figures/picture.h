@@ -6,7 +6,7 @@
 #include "experiments/figures/render.h"
 #include "mesh/progress.h"
 #include "metrics/picture.h"
-#include "param/parameterization.h"
+#include "param/map/parameterization.h"
 #include "remesh/remesh.h"
 
 namespace gsp {

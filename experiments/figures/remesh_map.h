@@ -1,6 +1,6 @@
 #pragma once
 
-#include "param/parameterization.h"
+#include "param/map/parameterization.h"
 #include "remesh/semiregular.h"
 
 namespace gsp {

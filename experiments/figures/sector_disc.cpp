@@ -3,7 +3,7 @@
 #include "coder/wavelet_transform.h"
 #include "experiments/figures/remesh_map.h"
 #include "mesh/shapes.h"
-#include "param/global_system.h"
+#include "param/linear/global_system.h"
 
 namespace gsp {
 

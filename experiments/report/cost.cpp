@@ -7,10 +7,10 @@
 #include <cstdio>
 #include <sstream>
 
-#include "experiments/gnuplot.h"
+#include "experiments/plot/gnuplot.h"
 #include "mesh/error.h"
 #include "mesh/read_file.h"
-#include "param/automatic_stop.h"
+#include "param/simplify/automatic_stop.h"
 
 namespace gsp {
 
@@ -108,14 +108,16 @@ std::string cost_script(const std::string& name, const std::string& title, const
     borders.push_back(*at);
   }
   if (cost.third_stage)
-    setup += fmt::format("set label 'automatic stop: {0:.0f}' at {0:.6g}, graph 0.97 right offset -0.5,0 tc rgb '#888888'\n",
-                         *cost.third_stage);
+    setup +=
+        fmt::format("set label 'automatic stop: {0:.0f}' at {0:.6g}, graph 0.97 right offset -0.5,0 tc rgb '#888888'\n",
+                    *cost.third_stage);
   if (last < borders.back()) borders.push_back(last);
   for (std::size_t stage = 1; stage < borders.size(); ++stage)
     setup += fmt::format("set label {0} '{0}' at {1:.6g}, graph 0.05 center font ',16' tc rgb '#888888'\n", stage,
                          std::sqrt(borders[stage - 1] * borders[stage]));
   setup += "$cost << EOD\n";
-  for (const CostBin& bin : cost.bins) setup += fmt::format("{:.6g} {:.6g} {:.6g}\n", bin.remaining, bin.quality, bin.metric);
+  for (const CostBin& bin : cost.bins)
+    setup += fmt::format("{:.6g} {:.6g} {:.6g}\n", bin.remaining, bin.quality, bin.metric);
   setup += "EOD\n";
   const std::string commands =
       "plot $cost using 1:($2+$3) with lines lw 3 lc rgb '#c8102e' title 'cost', '' using 1:2 with lines lw 2 lc rgb "

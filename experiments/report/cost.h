@@ -30,8 +30,8 @@ struct CostCurve {
 
 CostCurve cost_curve(const std::vector<OmegaRecord>& record);
 
-/// The gnuplot program of NAME.png and NAME.svg: the cost and its two parts over the vertices that remain, the stages and
-/// the automatic stop marked. `cost` has bins.
+/// The gnuplot program of NAME.png and NAME.svg: the cost and its two parts over the vertices that remain, the stages
+/// and the automatic stop marked. `cost` has bins.
 std::string cost_script(const std::string& name, const std::string& title, const CostCurve& cost);
 
 /// What the stages are and where the third begins, as half a sentence.

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/summary.h"
+#include "experiments/curve/summary.h"
 
 namespace gsp {
 
@@ -132,8 +132,8 @@ std::vector<Setting> ranked_settings(const Run& run, const Findings& found, cons
   return settings;
 }
 
-/// "Best by model, against gsp gamma=2: horse: gsp gamma=4 (−3.1%); venus: the reference itself." Models on which nothing
-/// compares with the reference are left out; a difference that prints as 0.0% is none.
+/// "Best by model, against gsp gamma=2: horse: gsp gamma=4 (−3.1%); venus: the reference itself." Models on which
+/// nothing compares with the reference are left out; a difference that prints as 0.0% is none.
 std::string best_by_model(const Run& run, const Findings& found, const std::vector<Setting>& settings) {
   constexpr double kLeastSaving = 0.05;
   std::string text;
@@ -186,7 +186,8 @@ void tell_settings(const Run& run, const Findings& found, const std::string& met
     sentence += fmt::format(": {:.1f}% fewer than {}{}", -best.bd_rate, found.reference, by_model(found, best.label));
   sentence += fmt::format("; the next best, {}, needs {:.1f}% more than it", next.label, over(next));
   if (settings.size() > 2) sentence += fmt::format(", the worst, {}, {:.1f}%", worst.label, over(worst));
-  if (left_out > 0) sentence += fmt::format("; {} more {} not compared, for want of a model", left_out, left_out == 1 ? "is" : "are");
+  if (left_out > 0)
+    sentence += fmt::format("; {} more {} not compared, for want of a model", left_out, left_out == 1 ? "is" : "are");
   std::vector<std::string> without;
   for (const StoredModel& model : run.models) {
     const Comparison* c = found.comparison(

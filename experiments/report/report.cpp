@@ -8,13 +8,13 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "experiments/cell_options.h"
-#include "experiments/curve_csv.h"
+#include "experiments/cells/cell_options.h"
+#include "experiments/curve/curve_csv.h"
+#include "experiments/curve/summary.h"
 #include "experiments/report/page.h"
 #include "experiments/report/paper.h"
 #include "experiments/report/run_figures.h"
 #include "experiments/report/view_data.h"
-#include "experiments/summary.h"
 #include "experiments/version.h"
 #include "mesh/atomic_file.h"
 

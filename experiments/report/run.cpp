@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "experiments/cell_options.h"
-#include "experiments/curve_csv.h"
+#include "experiments/cells/cell_options.h"
+#include "experiments/curve/curve_csv.h"
 
 namespace gsp {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/store.h"
-#include "experiments/summary.h"
+#include "experiments/curve/summary.h"
+#include "experiments/store/store.h"
 
 namespace gsp {
 

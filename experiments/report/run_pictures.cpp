@@ -7,7 +7,7 @@
 #include "experiments/figures/picture.h"
 #include "experiments/figures/remesh_map.h"
 #include "experiments/figures/sector_disc.h"
-#include "param/param_file.h"
+#include "param/map/param_file.h"
 #include "remesh/semiregular_file.h"
 
 namespace gsp {

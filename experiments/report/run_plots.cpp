@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "experiments/gnuplot.h"
-#include "experiments/plot.h"
+#include "experiments/plot/gnuplot.h"
+#include "experiments/plot/plot.h"
 #include "experiments/report/cost.h"
 #include "experiments/report/paper.h"
 
@@ -165,10 +165,12 @@ void bar_figure(const Run& run, const Findings& found, const std::string& folder
     }
     rows += '\n';
   }
-  const std::string setup = bars(labels, rows, curve_colors(run, labels)) +
-                            "set datafile separator whitespace\nset ylabel 'bytes over those of the reference, %'\nset title " +
-                            gnuplot_quoted("reference: " + found.reference) + " noenhanced\n"
-                            "set xzeroaxis lt 1 lc rgb '#555555'\nset yrange [*<0:0<*]\n";
+  const std::string setup =
+      bars(labels, rows, curve_colors(run, labels)) +
+      "set datafile separator whitespace\nset ylabel 'bytes over those of the reference, %'\nset title " +
+      gnuplot_quoted("reference: " + found.reference) +
+      " noenhanced\n"
+      "set xzeroaxis lt 1 lc rgb '#555555'\nset yrange [*<0:0<*]\n";
   add_figure(figures, folder, "bd-rate", figure_script("bd-rate", setup, "eval(bars)\n", kBarsWidth, 500),
              fmt::format("BD-rate against {}: bytes that each needs more at equal PSNR, ceilings respected.",
                          found.reference));
@@ -225,8 +227,9 @@ void cost_figures(const Run& run, const Findings& found, const std::string& fold
     const CostCurve cost = cost_curve(read_omega_csv(cell->artefact("omega")));
     if (cost.bins.empty()) continue;
     const std::string name = "cost-" + model.name;
-    add_figure(figures, folder, name, cost_script(name, model.name, cost),
-               fmt::format("Cost of vertex removals on {}, the paper's figure 5d: {}.", model.name, cost_in_words(cost)));
+    add_figure(
+        figures, folder, name, cost_script(name, model.name, cost),
+        fmt::format("Cost of vertex removals on {}, the paper's figure 5d: {}.", model.name, cost_in_words(cost)));
   }
 }
 

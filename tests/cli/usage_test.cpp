@@ -1,12 +1,12 @@
 #include <catch2/catch.hpp>
 
 #include "cli.h"
-#include "experiments/suggest.h"
+#include "experiments/cells/suggest.h"
 
 namespace {
 
-const std::vector<std::string> kCommands = {"info",   "parameterize", "remesh",     "encode",
-                                            "decode", "distance",     "distortion", "curve",  "picture", "report"};
+const std::vector<std::string> kCommands = {"info",     "parameterize", "remesh", "encode",  "decode",
+                                            "distance", "distortion",   "curve",  "picture", "report"};
 
 }  // namespace
 
@@ -29,8 +29,8 @@ TEST_CASE("the help of every command gives the default and range of every option
       if (entry.rfind("  -", 0) != 0) return;
       CAPTURE(entry);
       const bool flag = contains(entry, "--help") || contains(entry, "--json") || contains(entry, "--quiet") ||
-                        contains(entry, "--verbose") || contains(entry, "--check ") || contains(entry, "--no-anchors") ||
-                        contains(entry, "--no-figures") ||
+                        contains(entry, "--verbose") || contains(entry, "--check ") ||
+                        contains(entry, "--no-anchors") || contains(entry, "--no-figures") ||
                         contains(entry, "--metro ") || contains(entry, "--mpeg ");
       CHECK((flag || contains(entry, "[") || contains(entry, "(required)")));
     };

@@ -5,8 +5,8 @@
 
 #include "mesh/error.h"
 #include "mesh/io.h"
-#include "tests/coder/sample_meshes.h"
 #include "test_meshes.h"
+#include "tests/coder/sample_meshes.h"
 
 using namespace gsp;
 
@@ -77,8 +77,9 @@ TEST_CASE("meshes of other programs are recovered") {
   };
   const std::string shared = shared_meshes();
   if (shared.empty()) return;
-  for (const Expected& expected : {Expected{"elephant_subd2.obj", 2, 696}, Expected{"refined_elephant_44460.ply", 2, 5558},
-                                   Expected{"smg_random_s2.obj", 2, 500}}) {
+  for (const Expected& expected :
+       {Expected{"elephant_subd2.obj", 2, 696}, Expected{"refined_elephant_44460.ply", 2, 5558},
+        Expected{"smg_random_s2.obj", 2, 500}}) {
     const Mesh plain = read_mesh(shared + "/semiregular/" + expected.name);
     const SemiregularMesh found = recover_levels(plain);
     CHECK(found.level == expected.level);

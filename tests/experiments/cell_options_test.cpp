@@ -1,4 +1,4 @@
-#include "experiments/cell_options.h"
+#include "experiments/cells/cell_options.h"
 
 #include <catch2/catch.hpp>
 

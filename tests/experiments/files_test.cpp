@@ -4,12 +4,12 @@
 #include <set>
 #include <sstream>
 
-#include "experiments/anchor_curves.h"
-#include "experiments/curve_csv.h"
+#include "experiments/cells/models.h"
+#include "experiments/curve/anchor_curves.h"
+#include "experiments/curve/curve_csv.h"
+#include "experiments/curve/stages.h"
 #include "experiments/curve_job.h"
-#include "experiments/models.h"
-#include "experiments/plot.h"
-#include "experiments/stages.h"
+#include "experiments/plot/plot.h"
 #include "experiments/version.h"
 #include "mesh/read_file.h"
 #include "temporary_folder.h"
@@ -93,7 +93,8 @@ TEST_CASE("a plot draws strange names, and names the files it made") {
   const std::vector<CurvePoint> points = {sample_point(model, "gsp", 256, 40), sample_point(model, "gsp", 4096, 60),
                                           sample_point(model, "draco", 4096, 30),
                                           sample_point(model, "draco", 90000, 70)};
-  const auto files = plot(folder.path().string(), "figure", {{model, curves_of(points)}, {"second", curves_of(points)}});
+  const auto files =
+      plot(folder.path().string(), "figure", {{model, curves_of(points)}, {"second", curves_of(points)}});
   REQUIRE(files.size() == 3);
   for (const std::string& file : files) CHECK(std::filesystem::file_size(folder.file(file)) > 500);
   const std::string svg = read_file(folder.file("figure.svg"));

@@ -11,10 +11,10 @@
 #include "mesh/parallel.h"
 #include "mesh/shapes.h"
 #include "metrics/distortion.h"
-#include "param/param_file.h"
+#include "param/map/param_file.h"
 #include "remesh/semiregular_file.h"
-#include "tests/support/exact_maps.h"
 #include "temporary_folder.h"
+#include "tests/support/exact_maps.h"
 
 using namespace gsp;
 
@@ -41,8 +41,8 @@ Mesh square(double height, double size) {
   return mesh;
 }
 
-/// A fragment on the edge of corners 0 and 1 of face 0; the first weight grows by `slope` a pixel to the right, the third
-/// down.
+/// A fragment on the edge of corners 0 and 1 of face 0; the first weight grows by `slope` a pixel to the right, the
+/// third down.
 Fragment fragment_at(double w0, double slope) {
   Fragment fragment;
   fragment.weights = {w0, 1.0 - w0, 0.0};

@@ -1,4 +1,4 @@
-#include "experiments/rate_curve.h"
+#include "experiments/curve/rate_curve.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "experiments/recipe.h"
+#include "experiments/cells/recipe.h"
 
 #include <catch2/catch.hpp>
 #include <filesystem>

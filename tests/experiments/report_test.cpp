@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "experiments/curve_csv.h"
+#include "experiments/curve/curve_csv.h"
 #include "experiments/figures/sector_disc.h"
 #include "experiments/report/cost.h"
 #include "experiments/report/page.h"
@@ -133,8 +133,9 @@ TEST_CASE("where no setting beats the reference, the report says so, and of mode
   run.cells = {setting("ball", 2.0, 1.0, 1.0), setting("ball", 0.0, 1.0, 1.5), setting("cube", 2.0, 1.0, 1.0),
                setting("cube", 0.0, 1.0, 0.8), setting("torus", 2.0, 1.0, 1.0)};
   const std::string reference = run.cells[0].label;
-  CHECK(findings(run).sentences.back() == "Best by model, against " + reference + ": ball: the reference itself; cube: " +
-                                              run.cells[3].label + " (−20.0%).");
+  CHECK(findings(run).sentences.back() == "Best by model, against " + reference +
+                                              ": ball: the reference itself; cube: " + run.cells[3].label +
+                                              " (−20.0%).");
   run.cells[3] = setting("cube", 0.0, 1.0, 1.5);
   CHECK(findings(run).sentences.back() == "No setting is better than " + reference + " on any model.");
 }
@@ -169,8 +170,7 @@ TEST_CASE("the two modes of a method in a curve folder are two curves of the rep
   const Run run = read_run(folder.path().string(), {});
   CHECK(run.labels() == std::vector<std::string>{"gsp", "gsp mode=fixed"});
   for (const StoredCell& cell : run.cells)
-    for (const CurvePoint& point : cell.points())
-      CHECK(point.coder == coder_name(cell.options.mode));
+    for (const CurvePoint& point : cell.points()) CHECK(point.coder == coder_name(cell.options.mode));
   CHECK(findings(run).reference == "gsp");
 }
 

@@ -29,15 +29,16 @@ double radius_at(const Parameterization& map, double z) {
 
 TEST_CASE("around a corner of any valence the map is like z^(k/6), and like Loop subdivision") {
   // Halving the way to the corner in the chart shrinks the way on the disc by 2^(-6/k) but for modes that the rim adds.
-  // Loop's own shrinkage is near it and the same only at k = 6, which is why the paper calls the two similar. Piecewise linear
-  // maps approach the singularity by the power 2k/6 of the faces' size: no faster than linearly at k = 3.
+  // Loop's own shrinkage is near it and the same only at k = 6, which is why the paper calls the two similar. Piecewise
+  // linear maps approach the singularity by the power 2k/6 of the faces' size: no faster than linearly at k = 3.
   constexpr int kLevel = 6;
   for (int k = 3; k <= 12; ++k) {
     CAPTURE(k);
     const Parameterization relaxed = relaxed_sector_disc(k, kLevel), loop = loop_sector_disc(k, kLevel);
     CHECK(check_map(relaxed).valid());
     CHECK(check_map(loop).valid());
-    const double ours = radius_at(relaxed, 0.3) / radius_at(relaxed, 0.6), rounding = 4.0 * std::pow(2.0, -kLevel * k / 3.0);
+    const double ours = radius_at(relaxed, 0.3) / radius_at(relaxed, 0.6),
+                 rounding = 4.0 * std::pow(2.0, -kLevel * k / 3.0);
     CHECK(ours == Approx(std::pow(2.0, -6.0 / k)).margin(0.05 + rounding));
     CHECK(ours == Approx(radius_at(loop, 0.3) / radius_at(loop, 0.6)).margin(0.08 + rounding));
   }

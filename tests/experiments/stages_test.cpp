@@ -1,4 +1,4 @@
-#include "experiments/stages.h"
+#include "experiments/curve/stages.h"
 
 #include <catch2/catch.hpp>
 
@@ -24,7 +24,8 @@ CurveOptions small_run(std::vector<StreamMode> modes) {
 }  // namespace
 
 TEST_CASE("streams for one size each keep to it, and decode to no less than the embedded stream's prefixes") {
-  const SemiregularMesh mesh = remesh(parameterize(shapes::bumpy_sphere(4), {.base_vertices = 12}, silent).map, {}, silent);
+  const SemiregularMesh mesh =
+      remesh(parameterize(shapes::bumpy_sphere(4), {.base_vertices = 12}, silent).map, {}, silent);
   // What is held to be no worse is the distance to the remesh; near the ceiling that to the input may move either way.
   const Mesh reference = mesh.mesh();
   const Meter meter(reference, "remesh", 1);

@@ -1,4 +1,4 @@
-#include "experiments/store.h"
+#include "experiments/store/store.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "experiments/summary.h"
+#include "experiments/curve/summary.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "experiments/sweep.h"
+#include "experiments/sweep/sweep.h"
 
 #include <signal.h>
 #include <sqlite3.h>
@@ -11,9 +11,9 @@
 #include <set>
 #include <thread>
 
-#include "experiments/check.h"
-#include "experiments/meter.h"
-#include "experiments/worker.h"
+#include "experiments/check/check.h"
+#include "experiments/curve/meter.h"
+#include "experiments/sweep/worker.h"
 #include "mesh/io.h"
 #include "mesh/random.h"
 #include "mesh/read_file.h"

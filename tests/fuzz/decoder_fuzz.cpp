@@ -6,8 +6,8 @@
 
 namespace {
 
-/// A few bytes may claim, and decode to, half a million faces (coder/codec.cpp), of which the first few hundred run through
-/// the same code: of larger meshes only the header is read here, or a run would take half a second.
+/// A few bytes may claim, and decode to, half a million faces (coder/codec.cpp), of which the first few hundred run
+/// through the same code: of larger meshes only the header is read here, or a run would take half a second.
 /// tests/coder/hostile_test.cpp has some.
 constexpr std::int64_t kMostFaces = 256;
 

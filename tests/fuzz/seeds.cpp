@@ -25,9 +25,8 @@ std::string contents(const std::filesystem::path& path) {
 void decoder_seeds(const std::filesystem::path& folder) {
   Progress silent;
   int number = 0;
-  for (const SemiregularMesh& mesh :
-       {samples::noise(shapes::tetrahedron(), 2), samples::bumpy_sphere(1), samples::wavy_sheet(1),
-        samples::noise(shapes::torus(4, 3), 0)})
+  for (const SemiregularMesh& mesh : {samples::noise(shapes::tetrahedron(), 2), samples::bumpy_sphere(1),
+                                      samples::wavy_sheet(1), samples::noise(shapes::torus(4, 3), 0)})
     for (Wavelet wavelet : kWavelets) {
       EncodeOptions options;
       options.wavelet = wavelet;

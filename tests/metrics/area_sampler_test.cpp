@@ -66,7 +66,8 @@ TEST_CASE("each face receives its share of the samples, to one") {
     const auto expected = static_cast<std::size_t>(area / total * count);
     while (at < expected) {
       const Triangle& t = mesh.faces[f];
-      const Vec3 normal = (mesh.positions[t[1]] - mesh.positions[t[0]]).cross(mesh.positions[t[2]] - mesh.positions[t[0]]);
+      const Vec3 normal =
+          (mesh.positions[t[1]] - mesh.positions[t[0]]).cross(mesh.positions[t[2]] - mesh.positions[t[0]]);
       if (std::abs(normal.normalized().dot(points[at] - mesh.positions[t[0]])) > 1e-12) break;
       ++at;
     }

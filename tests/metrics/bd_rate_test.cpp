@@ -13,7 +13,9 @@ constexpr BdInterpolation kAll[] = {BdInterpolation::Akima, BdInterpolation::Pch
 
 BdCurve curve(std::vector<BdPoint> points) { return {std::move(points)}; }
 
-BdCurve sample_curve() { return curve({{500, 48.1}, {1000, 53.7}, {2100, 59.2}, {4000, 63.9}, {9000, 68.0}, {16000, 70.5}}); }
+BdCurve sample_curve() {
+  return curve({{500, 48.1}, {1000, 53.7}, {2100, 59.2}, {4000, 63.9}, {9000, 68.0}, {16000, 70.5}});
+}
 
 BdCurve scaled(BdCurve c, double factor, double offset_db) {
   for (BdPoint& p : c.points) p = {factor * p.rate, p.psnr_db + offset_db};
@@ -106,7 +108,8 @@ TEST_CASE("a small overlap is warned of, and none is an error, never a number") 
 
 TEST_CASE("what is no curve is refused") {
   const BdCurve good = sample_curve();
-  for (const BdPoint& bad : {BdPoint{0, 50}, BdPoint{-1, 50}, BdPoint{100, std::nan("")}, BdPoint{INFINITY, 50}, BdPoint{100, INFINITY}}) {
+  for (const BdPoint& bad :
+       {BdPoint{0, 50}, BdPoint{-1, 50}, BdPoint{100, std::nan("")}, BdPoint{INFINITY, 50}, BdPoint{100, INFINITY}}) {
     BdCurve spoiled = good;
     spoiled.points.push_back(bad);
     CHECK_THROWS_AS(compare(good, spoiled), Error);

@@ -34,15 +34,15 @@ inline double brute_force_distance(const Vec3& p, const Vec3& a, const Vec3& b, 
   const double vb = d5 * d2 - d1 * d6;
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return (p - (a + d2 / (d2 - d6) * ac)).norm();
   const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
-    return (p - (b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b))).norm();
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return (p - (b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b))).norm();
   return std::abs(ap.dot(ab.cross(ac).normalized()));
 }
 
 inline double brute_force_distance(const Vec3& p, const Mesh& mesh) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Triangle& t : mesh.faces)
-    nearest = std::min(nearest, brute_force_distance(p, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]));
+    nearest =
+        std::min(nearest, brute_force_distance(p, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]));
   return nearest;
 }
 

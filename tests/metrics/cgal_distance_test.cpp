@@ -53,8 +53,8 @@ Reference cgal_distance(const Mesh& from, const Mesh& to, double samples) {
       const Triangle& t = from.faces[f];
       const Vec3 &a = from.positions[t[0]], u = from.positions[t[1]] - a, v = from.positions[t[2]] - a;
       const int k = std::max(1, static_cast<int>(std::lround(std::sqrt(samples * area / total))));
-      // A point anywhere in the part, mirrored through the part's middle for parts that stand on their heads; at the parts'
-      // centroids instead the mean would be off by more than a per cent, since distances have kinks.
+      // A point anywhere in the part, mirrored through the part's middle for parts that stand on their heads; at the
+      // parts' centroids instead the mean would be off by more than a per cent, since distances have kinks.
       const auto add = [&](int i, int j, bool upright) {
         double x = uniform(random), y = uniform(random);
         if (x + y > 1.0) x = 1.0 - x, y = 1.0 - y;
@@ -85,9 +85,9 @@ void check_agreement(const Mesh& a, const Mesh& b, double samples, bool print) {
   const Reference forward = cgal_distance(a, b, samples), backward = cgal_distance(b, a, samples);
   const auto report = [&](const char* name, const OneWayDistance& ours, const Reference& theirs) {
     if (print)
-      std::cout << name << ": RMS " << ours.rms << ", CGAL " << theirs.rms << " (" << 100.0 * (ours.rms / theirs.rms - 1.0)
-                << "%); mean " << ours.mean << ", CGAL " << theirs.mean << " (" << 100.0 * (ours.mean / theirs.mean - 1.0)
-                << "%)\n";
+      std::cout << name << ": RMS " << ours.rms << ", CGAL " << theirs.rms << " ("
+                << 100.0 * (ours.rms / theirs.rms - 1.0) << "%); mean " << ours.mean << ", CGAL " << theirs.mean << " ("
+                << 100.0 * (ours.mean / theirs.mean - 1.0) << "%)\n";
     CHECK(ours.rms == Approx(theirs.rms).epsilon(0.002));
     CHECK(ours.mean == Approx(theirs.mean).epsilon(0.002));
   };
@@ -103,7 +103,9 @@ TEST_CASE("mean and RMS agree with CGAL's tree to 0.2%") {
     for (Vec3& p : bumpy.positions) p *= 1.0 + 0.05 * std::sin(7.0 * p.x()) * std::cos(5.0 * p.y() + p.z());
     check_agreement(bumpy, shapes::sphere(3), 400000, false);
   }
-  SECTION("surfaces with boundaries, of different size") { check_agreement(shapes::grid(9, 4), shapes::torus(50, 30), 400000, false); }
+  SECTION("surfaces with boundaries, of different size") {
+    check_agreement(shapes::grid(9, 4), shapes::torus(50, 30), 400000, false);
+  }
 }
 
 TEST_CASE("the surfaces named by GSP_DISTANCE_A and GSP_DISTANCE_B agree with CGAL's tree to 0.2%", "[slow]") {

@@ -62,7 +62,8 @@ TEST_CASE("every measure of a linear map by its formula, and its neutral value f
   const double ratio = 4.0;  // singular values 2 and 1/2 in units of equal area
   Parameterization map = hexagon(2);
   const Distortion isometry = distortion(map);
-  for (const Statistics* s : {&isometry.stretch_l2, &isometry.stretch_linf, &isometry.sorkine}) check_constant(*s, 1.0, 1e-9);
+  for (const Statistics* s : {&isometry.stretch_l2, &isometry.stretch_linf, &isometry.sorkine})
+    check_constant(*s, 1.0, 1e-9);
   check_constant(isometry.conformal, 2.0);
   check_constant(isometry.area_symmetric, 2.0);
   CHECK(isometry.l2_stretch == Approx(1.0));

@@ -101,7 +101,8 @@ TEST_CASE("swapping, renumbering and moving the surfaces keep the bounds") {
   CHECK(ab.forward.upper == ba.backward.upper);
   Mesh turned = a, other = b;
   std::reverse(turned.faces.begin(), turned.faces.end());
-  const Eigen::Affine3d motion = Eigen::Translation3d(5, -7, 2) * Eigen::AngleAxisd(0.8, Vec3(1, 2, 2).normalized()) * Eigen::Scaling(10.0);
+  const Eigen::Affine3d motion =
+      Eigen::Translation3d(5, -7, 2) * Eigen::AngleAxisd(0.8, Vec3(1, 2, 2).normalized()) * Eigen::Scaling(10.0);
   for (Mesh* mesh : {&turned, &other})
     for (Vec3& p : mesh->positions) p = motion * p;
   const HausdorffBounds moved = bounds(turned, other);
@@ -140,5 +141,6 @@ TEST_CASE("bounds are the same for one and two threads, and stay true where piec
 }
 
 TEST_CASE("tolerances out of range are refused") {
-  for (double tolerance : {0.0, -1.0, 2.0, std::nan("")}) CHECK_THROWS_AS(bounds(shapes::sphere(1), shapes::sphere(1), tolerance), Error);
+  for (double tolerance : {0.0, -1.0, 2.0, std::nan("")})
+    CHECK_THROWS_AS(bounds(shapes::sphere(1), shapes::sphere(1), tolerance), Error);
 }

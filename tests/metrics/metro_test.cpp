@@ -22,9 +22,9 @@ TEST_CASE("offset planes are their offset apart by any averaging") {
 }
 
 TEST_CASE("samples are counted by hand on a square of two faces") {
-  // 100 asked for: 4 vertices; edges at sqrt(96) = 9.80 per length get 9, 9, 13, 10, 10 or so: 4 + √2 lengths, 53 in all.
-  // What is left for faces is 96 - (4 + 53), vertices taken off twice; 19.5 a face: 5 rows of an inner grid, 15 points,
-  // then 24 are owed and 6 rows give 21.
+  // 100 asked for: 4 vertices; edges at sqrt(96) = 9.80 per length get 9, 9, 13, 10, 10 or so: 4 + √2 lengths, 53 in
+  // all. What is left for faces is 96 - (4 + 53), vertices taken off twice; 19.5 a face: 5 rows of an inner grid, 15
+  // points, then 24 are owed and 6 rows give 21.
   const Mesh square = shapes::grid(1, 1);
   const MetroDistances d = metro(square, square, 100);
   CHECK(d.forward.vertex_samples == 4);

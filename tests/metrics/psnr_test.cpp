@@ -2,10 +2,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "mesh/shapes.h"
-#include "metrics/picture.h"
 #include "mesh/io.h"
 #include "mesh/ply.h"
+#include "mesh/shapes.h"
+#include "metrics/picture.h"
 #include "tests/temporary_folder.h"
 
 using namespace gsp;

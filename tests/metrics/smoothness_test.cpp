@@ -29,8 +29,8 @@ Parameterization power_disc(int sectors, int level, std::uint64_t seed) {
   for (int v = 0; v < map.surface.vertex_count(); ++v) {
     const Triangle& base = map.base.faces[map.patch[v]];
     const int centre = static_cast<int>(std::find(base.begin(), base.end(), 0) - base.begin());
-    const Complex from_centre =
-        (map.position[v] - kChartCorners[centre].value()) / (kChartCorners[(centre + 1) % 3] - kChartCorners[centre]).value();
+    const Complex from_centre = (map.position[v] - kChartCorners[centre].value()) /
+                                (kChartCorners[(centre + 1) % 3] - kChartCorners[centre]).value();
     // Base face s spans the angles from 2 pi s / sectors.
     const double angle = power * (std::arg(from_centre) + map.patch[v] * std::acos(-1.0) / 3.0);
     const Complex image = std::polar(std::pow(std::abs(from_centre), power), angle);
@@ -64,8 +64,8 @@ Parameterization rhombus(int level) {
 TEST_CASE("linear maps are smooth everywhere, however they are triangulated and charted") {
   Parameterization map = jittered_hexagon(3);
   exact_maps::rechart(map, 5);
-  const Eigen::Matrix3d stretch = Eigen::AngleAxisd(1.1, Vec3(1, 1, 0).normalized()).toRotationMatrix() *
-                                  Vec3(3.0, 1.0, 1.0).asDiagonal();
+  const Eigen::Matrix3d stretch =
+      Eigen::AngleAxisd(1.1, Vec3(1, 1, 0).normalized()).toRotationMatrix() * Vec3(3.0, 1.0, 1.0).asDiagonal();
   for (Vec3& p : map.surface.positions) p = stretch * p;
   const Smoothness s = smoothness(map);
   CHECK(s.inside_edges > 0);
@@ -102,7 +102,8 @@ TEST_CASE("a kink at a patch edge is seen there, at its size, and nowhere else")
 TEST_CASE("inside a smooth map the difference falls with the size of the faces, at a kink it stays") {
   const auto bent = [](int level) {
     Parameterization map = rhombus(level);
-    for (Vec3& p : map.surface.positions) p = Vec3(p.x() + 0.2 * p.x() * p.x(), p.y() + (p.y() < 0.0 ? 0.3 * p.y() : 0.0), 0.0);
+    for (Vec3& p : map.surface.positions)
+      p = Vec3(p.x() + 0.2 * p.x() * p.x(), p.y() + (p.y() < 0.0 ? 0.3 * p.y() : 0.0), 0.0);
     return smoothness(map);
   };
   const Smoothness coarse = bent(4), fine = bent(6);
@@ -115,7 +116,8 @@ TEST_CASE("patch edges of a smooth map do not show, however fine or uneven its f
     for (std::uint64_t seed : {1, 2, 3}) {
       Parameterization map = jittered_hexagon(level, 0.19, seed);
       for (Vec3& p : map.surface.positions)
-        p = Vec3(p.x() + 0.1 * std::sin(2.0 * p.y() + 1.0), p.y() + 0.05 * p.x() * p.x(), 0.3 * std::cos(p.x() - p.y()));
+        p = Vec3(p.x() + 0.1 * std::sin(2.0 * p.y() + 1.0), p.y() + 0.05 * p.x() * p.x(),
+                 0.3 * std::cos(p.x() - p.y()));
       CHECK(smoothness(map).across_over_inside.value() == Approx(1.0).margin(0.06));
     }
 }

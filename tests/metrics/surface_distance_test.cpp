@@ -24,7 +24,8 @@ Mesh moved(Mesh mesh, const Eigen::Affine3d& motion) {
 }
 
 bool same_bits(const OneWayDistance& a, const OneWayDistance& b) {
-  return a.mean == b.mean && a.rms == b.rms && a.hausdorff == b.hausdorff && a.rms_standard_error == b.rms_standard_error;
+  return a.mean == b.mean && a.rms == b.rms && a.hausdorff == b.hausdorff &&
+         a.rms_standard_error == b.rms_standard_error;
 }
 }  // namespace
 
@@ -194,7 +195,8 @@ TEST_CASE("refusals have a cause") {
 }
 
 TEST_CASE("the 95% quantile of a distance that grows linearly is known") {
-  // Half of [0,8]x[0,1] lies over [0,4]x[0,1]; over the rest the distance is uniform in [0, 4]: 5% of all is beyond 3.6.
+  // Half of [0,8]x[0,1] lies over [0,4]x[0,1]; over the rest the distance is uniform in [0, 4]: 5% of all is
+  // beyond 3.6.
   const SurfaceDistance d = measure(shapes::grid(8, 1), shapes::grid(4, 1), 200000);
   CHECK(d.forward.quantile95 == Approx(3.6).epsilon(1e-3));
   CHECK(d.quantile95() == d.forward.quantile95);
@@ -233,7 +235,8 @@ TEST_CASE("a spike of a few faces is found whatever the seed, and the standard e
   for (int f = 0; f < 100; ++f) spiked.positions[f].z() = 1e-3;
   const Mesh flat = shapes::grid(100, 100);
   for (int seed = 1; seed <= 8; ++seed) {
-    const OneWayDistance d = measure(spiked, flat, 21000, seed).forward, precise = measure(spiked, flat, 2000000, 99).forward;
+    const OneWayDistance d = measure(spiked, flat, 21000, seed).forward,
+                         precise = measure(spiked, flat, 2000000, 99).forward;
     CHECK(std::abs(d.rms - precise.rms) < 5.0 * d.rms_standard_error);
     CHECK(d.rms_standard_error < 5e-3 * precise.rms);
   }

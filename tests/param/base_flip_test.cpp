@@ -1,14 +1,14 @@
-#include "param/base_flip.h"
+#include "param/corners/base_edge_flip.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
 
 #include "mesh/shapes.h"
-#include "param/flip_edges.h"
-#include "param/folds.h"
-#include "param/lower_distortion.h"
-#include "param/stretch.h"
+#include "param/atlas/folds.h"
+#include "param/atlas/stretch.h"
+#include "param/corners/choose_base_flips.h"
+#include "param/energy/lower_distortion.h"
 #include "tests/support/exact_maps.h"
 
 using namespace gsp;
@@ -24,7 +24,8 @@ std::vector<int> all_edges(const Atlas& atlas) {
 bool flip_alone(Atlas& atlas, const FlipSite& site) {
   std::vector<int> inside;
   for (int v = 0; v < static_cast<int>(atlas.patch.size()); ++v)
-    if (atlas.corner[v] < 0 && (atlas.patch[v] == site.faces[0] || atlas.patch[v] == site.faces[1])) inside.push_back(v);
+    if (atlas.corner[v] < 0 && (atlas.patch[v] == site.faces[0] || atlas.patch[v] == site.faces[1]))
+      inside.push_back(v);
   const auto ways = changed_ways(atlas, site, all_edges(atlas));
   return ways && flip(atlas, site, inside, *ways);
 }
@@ -85,7 +86,8 @@ TEST_CASE("a flip keeps the area and the ways of all edges, and a second one tak
         continue;
       }
       REQUIRE(back);
-      CHECK(back->corners == std::array<int, 4>{site->corners[3], site->corners[2], site->corners[0], site->corners[1]});
+      CHECK(back->corners ==
+            std::array<int, 4>{site->corners[3], site->corners[2], site->corners[0], site->corners[1]});
       REQUIRE(flip_alone(atlas, *back));
       check_base(atlas);
       const std::vector<double> before = lengths(start), after = lengths(atlas);
@@ -104,8 +106,8 @@ TEST_CASE("edges between patch corners along base edges follow a flip, but for o
 
   // A vertex in the middle of the first base edge.
   const int middle = map.surface.vertex_count();
-  map.surface.positions.push_back(0.5 * (map.surface.positions[map.surface.faces[0][0]] +
-                                         map.surface.positions[map.surface.faces[0][1]]));
+  map.surface.positions.push_back(
+      0.5 * (map.surface.positions[map.surface.faces[0][0]] + map.surface.positions[map.surface.faces[0][1]]));
   map.patch.push_back(0);
   map.position.push_back(0.5 * (map.face_corners[0][0] + map.face_corners[0][1]));
   for (int h : {0, map.base.twins[0]}) {

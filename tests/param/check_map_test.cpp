@@ -10,9 +10,9 @@ using namespace gsp;
 namespace {
 const std::vector<Mesh>& bases() {
   static const std::vector<Mesh> all = {
-      shapes::tetrahedron(),      shapes::octahedron(),       shapes::icosahedron(),
+      shapes::tetrahedron(),       shapes::octahedron(),      shapes::icosahedron(),
       shapes::lattice_torus(4, 5), shapes::sector_disc(3, 0), shapes::sector_disc(6, 1),
-      shapes::sector_disc(12, 0), shapes::grid(2, 3),         shapes::twice(shapes::octahedron(), Vec3(5, 0, 0))};
+      shapes::sector_disc(12, 0),  shapes::grid(2, 3),        shapes::twice(shapes::octahedron(), Vec3(5, 0, 0))};
   return all;
 }
 }  // namespace

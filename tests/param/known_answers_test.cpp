@@ -7,15 +7,15 @@
 #include "mesh/random.h"
 #include "mesh/shapes.h"
 #include "metrics/distortion.h"
-#include "param/omega.h"
 #include "param/parameterize.h"
+#include "param/removal/removal_cost.h"
 
 using namespace gsp;
 
 namespace {
 
-// So few that no edge of the shapes below is long for the patches: pieces of split edges are so alike that removals tie, and
-// rounding decides between them.
+// So few that no edge of the shapes below is long for the patches: pieces of split edges are so alike that removals
+// tie, and rounding decides between them.
 constexpr int kBaseVertices = 24;
 
 /// Without a symmetry or an even spot, where two removals could cost the same.
@@ -70,10 +70,10 @@ std::vector<int> shuffled(int n, std::uint64_t seed) {
 
 double stretch(const Parameterization& map) { return distortion(map).l2_stretch; }
 
-/// Whether two simplifications made the same removals, while stars have so few points that all of them are priced; of larger
-/// ones a part is, by their numbers.
+/// Whether two simplifications made the same removals, while stars have so few points that all of them are priced; of
+/// larger ones a part is, by their numbers.
 void check_same_costs(const std::vector<OmegaRecord>& a, const std::vector<OmegaRecord>& b) {
-  constexpr int kSmallStars = 20000 / Pricer::kSamples;
+  constexpr int kSmallStars = 20000 / RemovalCost::kSamples;
   REQUIRE(a.size() == b.size());
   for (std::size_t i = 0; a[i].remaining_vertices > kSmallStars; ++i)
     REQUIRE(a[i].omega() == Approx(b[i].omega()).epsilon(1e-9));

@@ -1,9 +1,9 @@
-#include "param/lattice.h"
+#include "param/map/lattice.h"
 
 #include <catch2/catch.hpp>
 
 #include "mesh/random.h"
-#include "param/base_complex.h"
+#include "param/map/base_complex.h"
 
 using namespace gsp;
 

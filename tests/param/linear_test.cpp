@@ -7,13 +7,13 @@
 
 #include "mesh/random.h"
 #include "mesh/shapes.h"
-#include "param/descend_corners.h"
-#include "param/folds.h"
-#include "param/global_system.h"
-#include "param/intrinsic_triangulation.h"
-#include "param/lower_distortion.h"
-#include "param/sparse_solver.h"
-#include "param/weights.h"
+#include "param/atlas/folds.h"
+#include "param/corners/descend_corners.h"
+#include "param/energy/lower_distortion.h"
+#include "param/linear/global_system.h"
+#include "param/linear/intrinsic_triangulation.h"
+#include "param/linear/sparse_solver.h"
+#include "param/linear/weights.h"
 #include "tests/support/exact_maps.h"
 
 using namespace gsp;
@@ -73,7 +73,8 @@ double asymmetry(const Parameterization& exact, const Atlas& atlas, int level) {
 
 }  // namespace
 
-TEST_CASE("an intrinsic triangulation becomes Delaunay, keeps the angles around its vertices and its transitions closed") {
+TEST_CASE(
+    "an intrinsic triangulation becomes Delaunay, keeps the angles around its vertices and its transitions closed") {
   const Parameterization exact = exact_maps::quadrisected(shapes::torus(6, 4), 2);
   Atlas atlas = atlas_of(exact);
   IntrinsicTriangulation triangulation(*atlas.surface, all_faces(*atlas.surface));

@@ -3,10 +3,10 @@
 #include <set>
 
 #include "mesh/shapes.h"
-#include "param/folds.h"
-#include "param/overlay.h"
-#include "param/simplify.h"
-#include "param/smooth_levels.h"
+#include "param/atlas/folds.h"
+#include "param/simplify/overlay.h"
+#include "param/simplify/simplify.h"
+#include "param/stages/smooth_levels.h"
 #include "param_checks.h"
 
 using namespace gsp;

@@ -5,7 +5,7 @@
 
 #include "mesh/shapes.h"
 #include "mesh/topology.h"
-#include "param/folds.h"
+#include "param/atlas/folds.h"
 
 namespace gsp {
 
@@ -29,8 +29,10 @@ struct Cut {
 };
 
 inline std::vector<Cut> cuts() {
-  return {{"sphere", shapes::sphere(4), 4},           {"torus", shapes::torus(30, 12), 12},
-          {"plane", shapes::grid(16, 12), 6},        {"spiky sphere", spiky_sphere(4), 12},
+  return {{"sphere", shapes::sphere(4), 4},
+          {"torus", shapes::torus(30, 12), 12},
+          {"plane", shapes::grid(16, 12), 6},
+          {"spiky sphere", spiky_sphere(4), 12},
           {"degenerate sphere", degenerate_sphere(4), 12}};
 }
 

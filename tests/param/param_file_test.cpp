@@ -1,4 +1,4 @@
-#include "param/param_file.h"
+#include "param/map/param_file.h"
 
 #include <catch2/catch.hpp>
 
@@ -18,7 +18,8 @@ namespace {
 
 /// A file in the system's temporary folder, removed at the end of the test.
 struct TemporaryFile {
-  std::string path = (std::filesystem::temp_directory_path() / ("gsp-param-" + std::to_string(::getpid()) + ".param.ply")).string();
+  std::string path =
+      (std::filesystem::temp_directory_path() / ("gsp-param-" + std::to_string(::getpid()) + ".param.ply")).string();
   ~TemporaryFile() { std::filesystem::remove(path); }
 
   std::string bytes() const {
@@ -82,7 +83,8 @@ TEST_CASE("the header is the documented one") {
       "ply\nformat binary_little_endian 1.0\ncomment gsp parameterization 1\ncomment method gsp\n"
       "element vertex 4\nproperty double x\nproperty double y\nproperty double z\nproperty int patch\n"
       "property double u\nproperty double v\n"
-      "element face 4\nproperty list uchar int vertex_indices\nproperty int chart\nproperty list uchar double texcoord\n"
+      "element face 4\nproperty list uchar int vertex_indices\nproperty int chart\nproperty list uchar double "
+      "texcoord\n"
       "element base_vertex 4\nproperty int vertex\n"
       "element base_face 4\nproperty list uchar int base_vertex_indices\nend_header\n";
   const std::string bytes = file.bytes();

@@ -4,17 +4,17 @@
 #include "mesh/error.h"
 #include "mesh/parallel.h"
 #include "mesh/shapes.h"
-#include "param/distortion_energy.h"
-#include "param/folds.h"
-#include "param/global_system.h"
-#include "param/lower_distortion.h"
-#include "param/maps_smoothing.h"
+#include "param/atlas/folds.h"
+#include "param/atlas/stretch.h"
+#include "param/baselines/maps_smoothing.h"
+#include "param/corners/relax_corners.h"
+#include "param/energy/distortion_energy.h"
+#include "param/energy/lower_distortion.h"
+#include "param/linear/global_system.h"
+#include "param/linear/weights.h"
 #include "param/parameterize.h"
-#include "param/relax_corners.h"
-#include "param/simplify.h"
-#include "param/smooth.h"
-#include "param/stretch.h"
-#include "param/weights.h"
+#include "param/simplify/simplify.h"
+#include "param/stages/fold_free_solution.h"
 
 using namespace gsp;
 
@@ -111,13 +111,14 @@ TEST_CASE("moving vertices to other charts leaves the solution of the global sys
   solve(moved, weights);
   for (int f = 0; f < atlas.surface->mesh.face_count(); ++f) {
     const auto a = atlas.face_corners(f, atlas.face_frame(f)), b = moved.face_corners(f, moved.face_frame(f));
-    for (int k = 0; k < 3; ++k) CHECK(std::abs(std::abs(a[(k + 1) % 3] - a[k]) - std::abs(b[(k + 1) % 3] - b[k])) < 1e-9);
+    for (int k = 0; k < 3; ++k)
+      CHECK(std::abs(std::abs(a[(k + 1) % 3] - a[k]) - std::abs(b[(k + 1) % 3] - b[k])) < 1e-9);
   }
 }
 
 TEST_CASE("a lattice torus onto a lattice base keeps the exact flat map") {
-  // Every vertex has valence 6 and every face is equilateral in the chart: affine maps solve the uniform system exactly,
-  // and on the flat disc below mean value weights reproduce them too (Floater 2003).
+  // Every vertex has valence 6 and every face is equilateral in the chart: affine maps solve the uniform system
+  // exactly, and on the flat disc below mean value weights reproduce them too (Floater 2003).
   Atlas atlas = simplified(shapes::sector_disc(6, 4), 7);
   solve(atlas, LinearWeights(*atlas.surface, Weights::MeanValue));
   if (atlas.base.face_count() == 6 && atlas.corner[0] >= 0) {
@@ -177,13 +178,15 @@ TEST_CASE("the distortion energy is bounded below by that of isometries, and its
       above[i] += kStep;
       below[i] -= kStep;
       const double slope = (energy.evaluate(above.data(), other.data(), epsilon) -
-                            energy.evaluate(below.data(), other.data(), epsilon)) / (2.0 * kStep);
+                            energy.evaluate(below.data(), other.data(), epsilon)) /
+                           (2.0 * kStep);
       CHECK(slope == Approx(gradient[i]).margin(1e-6));
     }
   }
 }
 
-TEST_CASE("beside its least the distortion energy curves as its convex Hessian says, and no further step folds a face") {
+TEST_CASE(
+    "beside its least the distortion energy curves as its convex Hessian says, and no further step folds a face") {
   Mesh disc = shapes::sector_disc(6, 3);
   Atlas atlas = simplified(disc, 7);
   // The disc of six equilateral sectors on its six charts, which is an isometry up to scale.

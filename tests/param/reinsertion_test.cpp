@@ -2,9 +2,9 @@
 #include <memory>
 
 #include "mesh/shapes.h"
-#include "param/kernel.h"
-#include "param/reinsertion.h"
-#include "param/simplify.h"
+#include "param/reinsert/reinsertion.h"
+#include "param/reinsert/visibility_kernel.h"
+#include "param/simplify/simplify.h"
 #include "param_checks.h"
 
 using namespace gsp;
@@ -22,10 +22,10 @@ TEST_CASE("vertices put back leave a map free of folds, from whatever level and 
       SimplifyResult made = simplify(surface, options, level, progress);
       REQUIRE(!made.finer.empty());
       const std::size_t remaining = remaining_vertices(*surface, made.removals).size();
-      std::optional<RefinedMap> map = std::move(*made.map).coarsened();
+      std::optional<EditableAtlas> map = std::move(*made.map).coarsened();
       for (; !made.finer.empty(); made.finer.pop_back()) {
-        const Decimation& decimation = made.finer.back();
-        const RefinedMap before = *map;
+        const RemovalRecord& decimation = made.finer.back();
+        const EditableAtlas before = *map;
         map = reinsert(decimation, before);
         REQUIRE(map);
         CHECK(map->atlas.base.faces == before.atlas.base.faces);
@@ -44,7 +44,7 @@ TEST_CASE("the faces that are put back are the surface's own, corner by corner")
   options.base_vertices = 20;
   Progress progress;
   SimplifyResult made = simplify(std::make_shared<const Surface>(mesh), options, 200, progress);
-  RefinedMap map = std::move(*made.map).coarsened();
+  EditableAtlas map = std::move(*made.map).coarsened();
   for (; !made.finer.empty(); made.finer.pop_back()) map = *reinsert(made.finer.back(), map);
   const Mesh& made_again = map.atlas.surface->mesh;
   int whole = 0;

@@ -100,5 +100,6 @@ TEST_CASE("samples that lie on the remesh move nothing") {
     const LevelPlace place = {f, {0.5, 0.25, 0.25}};
     samples.push_back({place.at(finest, mesh.positions), 1.0, place});
   }
-  CHECK(worst(fit_closest(finest, FoldGuard(finest, areas), samples, FitEffort{5e-3}, mesh.positions), mesh.positions) < 1e-14);
+  CHECK(worst(fit_closest(finest, FoldGuard(finest, areas), samples, FitEffort{5e-3}, mesh.positions), mesh.positions) <
+        1e-14);
 }

@@ -1,0 +1,359 @@
+#include "experiments/cells/cell_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace gsp {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Kind = Axis::Kind;
+
+constexpr const char* kAuto = "auto";
+constexpr Method kMethods[] = {Method::Gsp, Method::Maps, Method::MapsSmoothed, Method::Hybrid};
+constexpr Objective kObjectives[] = {Objective::Distortion, Objective::Linear};
+constexpr Weights kWeights[] = {Weights::MeanValue, Weights::Cotangent, Weights::Uniform};
+constexpr Corners kCorners[] = {Corners::Relax, Corners::Gradient};
+constexpr StreamMode kStreamModes[] = {StreamMode::Embedded, StreamMode::Fixed};
+constexpr BaseEdges kBaseEdges[] = {BaseEdges::Flip, BaseEdges::Keep};
+constexpr double kMostWeight = 1e6;
+constexpr int kMostRelaxations = 1000;
+constexpr double kMostInt = std::numeric_limits<int>::max();
+
+std::int64_t integer(const AxisValue& value) { return std::get<std::int64_t>(value); }
+double number(const AxisValue& value) { return std::get<double>(value); }
+const std::string& word(const AxisValue& value) { return std::get<std::string>(value); }
+
+AxisValue integer_or_auto(int value, int automatic) {
+  return value == automatic ? AxisValue(kAuto) : AxisValue(std::int64_t{value});
+}
+
+int integer_or_auto(const AxisValue& value, int automatic) {
+  return std::holds_alternative<std::string>(value) ? automatic : static_cast<int>(integer(value));
+}
+
+/// The names of the values of an enumeration, and the value of a name.
+template <class Values, class Name>
+std::vector<std::string> words_of(const Values& values, Name name) {
+  std::vector<std::string> words;
+  for (auto value : values) words.emplace_back(name(value));
+  return words;
+}
+
+template <class Values, class Name>
+auto value_of(const Values& values, Name name, const AxisValue& given) {
+  return *std::find_if(std::begin(values), std::end(values), [&](auto value) { return word(given) == name(value); });
+}
+
+using Options = CellOptions;
+using Value = AxisValue;
+
+std::vector<Axis> map_axes() {
+  constexpr StageKind kStage = StageKind::Parameterize;
+  return {
+      {"method", kStage, Kind::Word, 0, 0, method_words(), [](const Options& o) { return Value(o.method); },
+       [](Options& o, const Value& v) { o.method = word(v); }},
+      {"gamma",
+       kStage,
+       Kind::Number,
+       0,
+       kMostWeight,
+       {},
+       [](const Options& o) { return Value(o.parameterize.gamma); },
+       [](Options& o, const Value& v) { o.parameterize.gamma = number(v); }},
+      {"mu",
+       kStage,
+       Kind::Number,
+       0,
+       kMostWeight,
+       {},
+       [](const Options& o) { return Value(o.parameterize.mu); },
+       [](Options& o, const Value& v) { o.parameterize.mu = number(v); }},
+      {"base_vertices",
+       kStage,
+       Kind::Integer,
+       4,
+       kMostInt,
+       {kAuto},
+       [](const Options& o) { return integer_or_auto(o.parameterize.base_vertices, 0); },
+       [](Options& o, const Value& v) { o.parameterize.base_vertices = integer_or_auto(v, 0); }},
+      {"objective", kStage, Kind::Word, 0, 0, words_of(kObjectives, objective_name),
+       [](const Options& o) { return Value(objective_name(o.parameterize.objective)); },
+       [](Options& o, const Value& v) { o.parameterize.objective = value_of(kObjectives, objective_name, v); }},
+      {"weights", kStage, Kind::Word, 0, 0, words_of(kWeights, weights_name),
+       [](const Options& o) { return Value(weights_name(o.parameterize.weights)); },
+       [](Options& o, const Value& v) { o.parameterize.weights = value_of(kWeights, weights_name, v); }},
+      {"corners", kStage, Kind::Word, 0, 0, words_of(kCorners, corners_name),
+       [](const Options& o) { return Value(corners_name(o.parameterize.corners)); },
+       [](Options& o, const Value& v) { o.parameterize.corners = value_of(kCorners, corners_name, v); }},
+      {"base_edges", kStage, Kind::Word, 0, 0, words_of(kBaseEdges, base_edges_name),
+       [](const Options& o) { return Value(base_edges_name(o.parameterize.base_edges)); },
+       [](Options& o, const Value& v) { o.parameterize.base_edges = value_of(kBaseEdges, base_edges_name, v); }},
+      {"relaxations",
+       kStage,
+       Kind::Integer,
+       0,
+       kMostRelaxations,
+       {},
+       [](const Options& o) { return Value(std::int64_t{o.parameterize.relaxations}); },
+       [](Options& o, const Value& v) { o.parameterize.relaxations = static_cast<int>(integer(v)); }},
+  };
+}
+
+std::vector<Axis> code_axes() {
+  return {
+      {"level",
+       StageKind::Remesh,
+       Kind::Integer,
+       0,
+       kMaxSubdivisionLevel,
+       {kAuto},
+       [](const Options& o) { return integer_or_auto(o.remesh.level, RemeshOptions::kAutoLevel); },
+       [](Options& o, const Value& v) { o.remesh.level = integer_or_auto(v, RemeshOptions::kAutoLevel); }},
+      {"positions", StageKind::Remesh, Kind::Word, 0, 0, words_of(kPositions, positions_name),
+       [](const Options& o) { return Value(positions_name(o.remesh.positions)); },
+       [](Options& o, const Value& v) { o.remesh.positions = value_of(kPositions, positions_name, v); }},
+      {"wavelet", StageKind::Encode, Kind::Word, 0, 0, words_of(kWavelets, wavelet_name),
+       [](const Options& o) { return Value(wavelet_name(o.encode.wavelet)); },
+       [](Options& o, const Value& v) { o.encode.wavelet = wavelet_of(word(v)); }},
+      {"precision_bits",
+       StageKind::Encode,
+       Kind::Integer,
+       8,
+       24,
+       {kAuto},
+       [](const Options& o) { return integer_or_auto(o.encode.precision_bits, EncodeOptions::kAutoPrecision); },
+       [](Options& o, const Value& v) { o.encode.precision_bits = integer_or_auto(v, EncodeOptions::kAutoPrecision); }},
+      {"tangential_ratio",
+       StageKind::Encode,
+       Kind::Integer,
+       1,
+       8,
+       {"1", "2", "4", "8"},
+       [](const Options& o) { return Value(std::int64_t{o.encode.tangential_ratio}); },
+       [](Options& o, const Value& v) { o.encode.tangential_ratio = static_cast<int>(integer(v)); }},
+      {"mode", StageKind::Measure, Kind::Word, 0, 0, words_of(kStreamModes, stream_mode_name),
+       [](const Options& o) { return Value(stream_mode_name(o.mode)); },
+       [](Options& o, const Value& v) { o.mode = stream_mode_of(word(v)); }},
+      {"samples",
+       StageKind::Remesh,
+       Kind::Integer,
+       1000,
+       1e9,
+       {},
+       [](const Options& o) { return Value(static_cast<std::int64_t>(o.samples)); },
+       [](Options& o, const Value& v) { o.samples = static_cast<std::size_t>(integer(v)); }},
+      {"seed",
+       StageKind::Remesh,
+       Kind::Integer,
+       0,
+       0x1p62,
+       {},
+       [](const Options& o) { return Value(static_cast<std::int64_t>(o.seed)); },
+       [](Options& o, const Value& v) { o.seed = static_cast<std::uint64_t>(integer(v)); }},
+  };
+}
+
+Json to_json(const AxisValue& value) {
+  return std::visit([](const auto& v) { return Json(v); }, value);
+}
+
+AxisValue from_json(const Json& value) {
+  if (value.is_number_integer()) return value.get<std::int64_t>();
+  if (value.is_number()) return value.get<double>();
+  if (value.is_string()) return value.get<std::string>();
+  throw Error(Cause::Malformed, "an option is neither a number nor a word");
+}
+
+bool belongs(const Axis& axis, const CellOptions& options, StageKind stage) {
+  if (!axis.applies_to(options.method)) return false;
+  // Anchors have one stage only.
+  return is_anchor(options.method) ? stage == StageKind::Measure : axis.stage == stage;
+}
+
+void add_options(Json& object, const CellOptions& options, StageKind stage) {
+  for (const Axis& axis : axes())
+    if (belongs(axis, options, stage)) object[axis.name] = to_json(axis.get(options));
+  if (stage == StageKind::Measure && !is_anchor(options.method)) object["budgets"] = options.budgets;
+}
+
+}  // namespace
+
+const char* stage_name(StageKind kind) {
+  switch (kind) {
+    case StageKind::Parameterize:
+      return "parameterize";
+    case StageKind::Remesh:
+      return "remesh";
+    case StageKind::Encode:
+      return "encode";
+    case StageKind::Measure:
+      break;
+  }
+  return "measure";
+}
+
+StageKind stage_of(const std::string& name) {
+  for (StageKind kind : kStageKinds)
+    if (name == stage_name(kind)) return kind;
+  throw Error(Cause::BadOption, "unknown stage " + name);
+}
+
+std::vector<std::string> map_method_words() { return words_of(kMethods, method_name); }
+
+std::vector<std::string> method_words() {
+  std::vector<std::string> words = map_method_words();
+  words.insert(words.end(), {"draco", "decimate-draco"});
+  return words;
+}
+
+bool is_anchor(const std::string& method) { return method == "draco" || method == "decimate-draco"; }
+
+Method method_of(const std::string& word) {
+  for (Method method : kMethods)
+    if (word == method_name(method)) return method;
+  throw Error(Cause::BadOption, "unknown method " + word);
+}
+
+const char* stream_mode_name(StreamMode mode) { return mode == StreamMode::Fixed ? "fixed" : "embedded"; }
+
+StreamMode stream_mode_of(const std::string& name) {
+  for (StreamMode mode : kStreamModes)
+    if (name == stream_mode_name(mode)) return mode;
+  throw Error(Cause::BadOption, "unknown mode " + name);
+}
+
+const char* coder_name(StreamMode mode) { return mode == StreamMode::Fixed ? "gsp-fixed" : "gsp"; }
+
+std::vector<std::string> preset_words() { return {"default", "paper"}; }
+
+ParameterizeOptions preset_options(const std::string& word) {
+  if (word == "default") return {};
+  if (word == "paper") return paper_options();
+  throw Error(Cause::BadOption, "unknown preset " + word);
+}
+
+std::string Axis::refusal(const AxisValue& value) const {
+  const std::string text = to_string(value);
+  if (!words.empty() && std::find(words.begin(), words.end(), text) != words.end()) return {};
+  const bool range = kind == Kind::Number || (kind == Kind::Integer && (words.empty() || words.front() == kAuto));
+  if (!range) return fmt::format("{} is none of {}", text, fmt::join(words, ", "));
+  const bool fits =
+      kind == Kind::Number ? std::holds_alternative<double>(value) : std::holds_alternative<std::int64_t>(value);
+  const double x = !fits                  ? std::numeric_limits<double>::quiet_NaN()
+                   : kind == Kind::Number ? number(value)
+                                          : static_cast<double>(integer(value));
+  if (x >= low && x <= high) return {};
+  return fmt::format("{} is not {}{} to {}{}", text, kind == Kind::Integer ? "an integer " : "", low, high,
+                     words.empty() ? "" : " or auto");
+}
+
+bool Axis::applies_to(const std::string& method) const {
+  const std::string text = name;
+  if (text == "method" || text == "samples" || text == "seed") return true;
+  if (is_anchor(method)) return false;
+  if (text == "weights" && method == method_name(Method::Hybrid)) return true;
+  for (const char* of_gsp : {"objective", "weights", "corners", "base_edges", "relaxations"})
+    if (text == of_gsp) return method == method_name(Method::Gsp);
+  return true;
+}
+
+const std::vector<Axis>& axes() {
+  static const std::vector<Axis> all = [] {
+    std::vector<Axis> list = map_axes();
+    for (Axis& axis : code_axes()) list.push_back(std::move(axis));
+    return list;
+  }();
+  return all;
+}
+
+const Axis& axis(const std::string& name) {
+  for (const Axis& axis : axes())
+    if (name == axis.name) return axis;
+  throw Error(Cause::BadOption, "unknown option " + name);
+}
+
+std::string to_string(const AxisValue& value) {
+  return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+}
+
+CellOptions normalized(CellOptions options) {
+  const CellOptions defaults;
+  for (const Axis& axis : axes())
+    if (!axis.applies_to(options.method)) axis.set(options, axis.get(defaults));
+  if (is_anchor(options.method)) options.budgets.clear();
+  return options;
+}
+
+bool same_map_options(const CellOptions& cell, const CellOptions& made) {
+  return std::all_of(axes().begin(), axes().end(), [&](const Axis& axis) {
+    const bool of_map = axis.stage == StageKind::Parameterize && std::string("method") != axis.name;
+    return !of_map || !axis.applies_to(cell.method) || axis.get(cell) == axis.get(made);
+  });
+}
+
+std::string base_options_json(const CellOptions& options) {
+  CellOptions base = options;
+  base.method = method_name(Method::Maps);  // whose map depends on the base alone
+  return options_json(normalized(std::move(base)), StageKind::Parameterize);
+}
+
+std::string options_json(const CellOptions& options, StageKind stage) {
+  Json object = Json::object();
+  add_options(object, options, stage);
+  return object.dump();
+}
+
+std::string options_json(const CellOptions& options) {
+  Json object = Json::object();
+  for (StageKind stage : kStageKinds) add_options(object, options, stage);
+  return object.dump();
+}
+
+CellOptions options_from_json(const std::string& text) {
+  const Json object = Json::parse(text, nullptr, false);
+  if (!object.is_object()) throw Error(Cause::Malformed, "a cell's options are no JSON object");
+  CellOptions options;
+  for (const auto& [name, value] : object.items()) {
+    if (name == "budgets") {
+      for (const Json& bytes : value) {
+        if (!bytes.is_number_unsigned()) throw Error(Cause::Malformed, "a budget is no number of bytes");
+        options.budgets.push_back(bytes.get<std::size_t>());
+      }
+      continue;
+    }
+    const Axis& known = axis(name);
+    AxisValue given = from_json(value);
+    if (const std::string why = known.refusal(given); !why.empty()) throw Error(Cause::BadOption, name + ": " + why);
+    known.set(options, given);
+  }
+  return options;
+}
+
+std::string further_options(const CellOptions& options) {
+  // The mode stands in the column `coder`.
+  static const std::vector<std::string> columns = {"method",  "gamma", "mu",      "base_vertices", "level",
+                                                   "wavelet", "mode",  "samples", "seed"};
+  std::string text;
+  for (const Axis& axis : axes()) {
+    if (std::find(columns.begin(), columns.end(), axis.name) != columns.end() || !axis.applies_to(options.method))
+      continue;
+    text += fmt::format("{}{}={}", text.empty() ? "" : " ", axis.name, to_string(axis.get(options)));
+  }
+  return text;
+}
+
+std::string further_option(const std::string& text, const std::string& name) {
+  std::istringstream words(text);
+  for (std::string word; words >> word;)
+    if (word.starts_with(name + '=')) return word.substr(name.size() + 1);
+  return "";
+}
+
+}  // namespace gsp

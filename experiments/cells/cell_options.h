@@ -1,0 +1,116 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "coder/codec.h"
+#include "param/parameterize.h"
+#include "remesh/remesh.h"
+
+namespace gsp {
+
+/// What a cell of a sweep is computed by, in this order. An anchor (Draco) has the last one only.
+enum class StageKind { Parameterize, Remesh, Encode, Measure };
+inline constexpr StageKind kStageKinds[] = {StageKind::Parameterize, StageKind::Remesh, StageKind::Encode,
+                                            StageKind::Measure};
+
+/// "parameterize", "remesh", "encode", "measure".
+const char* stage_name(StageKind kind);
+/// The inverse. Throws Error(BadOption).
+StageKind stage_of(const std::string& name);
+
+/// How each size of a remesh is coded.
+enum class StreamMode {
+  Embedded,  ///< as the prefix of one stream, which serves every size (`encode`)
+  Fixed      ///< as a stream made for that size alone (`encode_fixed`)
+};
+
+/// "embedded", "fixed".
+const char* stream_mode_name(StreamMode mode);
+/// The inverse. Throws Error(BadOption).
+StreamMode stream_mode_of(const std::string& name);
+/// What the column `coder` of curve.csv calls it: "gsp", "gsp-fixed".
+const char* coder_name(StreamMode mode);
+
+/// Everything that a cell depends on besides its surface.
+struct CellOptions {
+  std::string method = "gsp";        ///< gsp, maps, maps-smoothed, hybrid, draco, decimate-draco
+  ParameterizeOptions parameterize;  ///< whose `method` says nothing here
+  RemeshOptions remesh;
+  EncodeOptions encode;
+  StreamMode mode = StreamMode::Embedded;
+  std::vector<std::size_t> budgets;  ///< bytes to decode; empty: 256, 512, 1024, ... and the whole stream
+  std::size_t samples = 200000;  ///< of the distance, per direction; decimate-draco, which has many points, takes half
+  std::uint64_t seed = 1;        ///< of the samples; they measure the remesh too
+};
+
+/// The words of `CellOptions::method`, and those that stand for maps.
+std::vector<std::string> method_words();
+std::vector<std::string> map_method_words();
+/// True for Draco and decimate-then-Draco, which have no map.
+bool is_anchor(const std::string& method);
+/// The map that a method's name stands for. Throws Error(BadOption) for anchors and unknown words.
+Method method_of(const std::string& word);
+
+/// "default" and "paper": what options of the map are where none is given.
+std::vector<std::string> preset_words();
+/// The options that one stands for. Throws Error(BadOption) for unknown words.
+ParameterizeOptions preset_options(const std::string& word);
+
+/// One value of one option: an integer, a number, or a word ("auto" where the option has it).
+using AxisValue = std::variant<std::int64_t, double, std::string>;
+
+/// One option that a recipe may vary. All that must be known about it stands here once: recipes, cache keys, labels and
+/// the command line follow from it, so a new option of a stage is one entry in `axes`.
+struct Axis {
+  enum class Kind { Integer, Number, Word };
+  const char* name;
+  StageKind stage;  ///< the first stage whose result it changes
+  Kind kind;
+  double low = 0.0, high = 0.0;    ///< inclusive, of integers and numbers
+  std::vector<std::string> words;  ///< for a word all there are; for an integer those it has besides, or "auto"
+  AxisValue (*get)(const CellOptions&);
+  /// The value has passed `refusal`.
+  void (*set)(CellOptions&, const AxisValue&);
+
+  /// Why a value is impossible ("-1 is not 0 to 1000"); empty where it is fine.
+  std::string refusal(const AxisValue& value) const;
+  /// False where the option changes nothing for the method, as the level for Draco.
+  bool applies_to(const std::string& method) const;
+};
+
+/// All axes, in the order in which a sweep nests them: the method outermost.
+const std::vector<Axis>& axes();
+/// Throws Error(BadOption) where there is none of that name.
+const Axis& axis(const std::string& name);
+
+/// "0.5", "16", "auto".
+std::string to_string(const AxisValue& value);
+
+/// Options that do not apply to the method are set to their defaults, so that equal cells are equal.
+CellOptions normalized(CellOptions options);
+
+/// Whether the map of `cell` is what `made` gives for the cell's method: all options that apply to that method's map
+/// are the same. Maps of one `ParameterizeOptions` are made together where this holds.
+bool same_map_options(const CellOptions& cell, const CellOptions& made);
+
+/// The options that decide on the base complex, which the baselines of a surface share with the first map on it, as
+/// JSON.
+std::string base_options_json(const CellOptions& options);
+
+/// The options of one stage as a JSON object, only those that apply to the method, keys in the order of `axes`; the
+/// method is part of the stage that depends on it first, the budgets of Measure.
+std::string options_json(const CellOptions& options, StageKind stage);
+/// All options that apply, as one JSON object.
+std::string options_json(const CellOptions& options);
+/// The inverse of the latter. Throws Error(Malformed, BadOption).
+CellOptions options_from_json(const std::string& text);
+
+/// All options that have no column of their own in curve.csv, as "name=value name=value".
+std::string further_options(const CellOptions& options);
+/// The value of one of them in that text; empty where it has none.
+std::string further_option(const std::string& text, const std::string& name);
+
+}  // namespace gsp

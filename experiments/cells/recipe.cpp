@@ -1,0 +1,359 @@
+#include "experiments/cells/recipe.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fnmatch.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "experiments/cells/models.h"
+#include "experiments/cells/suggest.h"
+#include "mesh/read_file.h"
+
+namespace gsp {
+
+namespace {
+
+constexpr std::size_t kMostCells = 100000;
+
+long long line_of(const toml::node& node) { return node.source().begin.line; }
+
+[[noreturn]] void refuse(const std::string& why, long long line) {
+  throw Error(Cause::BadOption, why, Element::Line, line);
+}
+
+// Values of an axis, from a scalar, a list of them or a range.
+class AxisReader {
+ public:
+  AxisReader(const Axis& axis, const toml::node& node) : axis_(axis), line_(line_of(node)) {
+    if (const toml::array* list = node.as_array()) {
+      if (list->empty()) refuse(fmt::format("{} is an empty list: the sweep would have no cell", axis.name), line_);
+      for (const toml::node& element : *list) add_scalar(element);
+    } else if (const toml::table* range = node.as_table()) {
+      add_range(*range);
+    } else {
+      add_scalar(node);
+    }
+  }
+
+  std::vector<AxisValue> values;
+
+ private:
+  void add(AxisValue value, long long line) {
+    if (axis_.kind == Axis::Kind::Number && std::holds_alternative<std::int64_t>(value))
+      value = static_cast<double>(std::get<std::int64_t>(value));
+    if (const std::string why = axis_.refusal(value); !why.empty())
+      refuse(fmt::format("{}: {}", axis_.name, why), line);
+    if (seen_.insert(value).second) values.push_back(std::move(value));
+    if (values.size() > kMostCells) refuse(fmt::format("{} has more than {} values", axis_.name, kMostCells), line);
+  }
+
+  void add_scalar(const toml::node& node) {
+    const long long line = line_of(node);
+    if (node.is_integer()) return add(node.ref<std::int64_t>(), line);
+    if (node.is_floating_point()) return add(node.ref<double>(), line);
+    if (node.is_string()) return add(node.ref<std::string>(), line);
+    refuse(fmt::format("{} is no number, word, list or range of them", axis_.name), line);
+  }
+
+  double number(const toml::table& range, const char* key) const {
+    const toml::node* node = range.get(key);
+    if (!node) refuse(fmt::format("the range of {} lacks \"{}\"", axis_.name, key), line_);
+    const auto value = node->value<double>();
+    if (!value || !std::isfinite(*value)) refuse(fmt::format("\"{}\" of {} is no number", key, axis_.name), line_);
+    return *value;
+  }
+
+  void add_range(const toml::table& range) {
+    if (axis_.kind == Axis::Kind::Word) refuse(fmt::format("{} takes words, which have no range", axis_.name), line_);
+    const double from = number(range, "from"), to = number(range, "to");
+    std::string stride;
+    for (const auto& [key, value] : range) {
+      const std::string name(key.str());
+      if (name == "from" || name == "to") continue;
+      if (name != "step" && name != "steps" && name != "factor")
+        refuse(fmt::format("a range has from, to and one of step, steps, factor, not {}", name), line_of(value));
+      if (!stride.empty()) refuse(fmt::format("the range of {} has both {} and {}", axis_.name, stride, name), line_);
+      stride = name;
+    }
+    if (stride.empty()) refuse(fmt::format("the range of {} lacks step, steps or factor", axis_.name), line_);
+    if (to < from) refuse(fmt::format("the range of {} is empty: {} to {}", axis_.name, from, to), line_);
+    const double by = number(range, stride.c_str());
+    if (stride == "steps") return add_steps(from, to, by);
+    if (stride == "step" ? !(by > 0.0) : !(by > 1.0 && from > 0.0))
+      refuse(fmt::format("the range of {} never ends", axis_.name), line_);
+    // Half a stride of slack, so that 0 to 1 by 0.1 ends at 1.
+    for (int i = 0;; ++i) {
+      const double x = stride == "step" ? from + i * by : from * std::pow(by, i);
+      if (x > to + 1e-9 * std::abs(to)) break;
+      add_number(x);
+    }
+  }
+
+  void add_steps(double from, double to, double steps) {
+    if (!(steps >= 2.0 && steps <= kMostCells) || steps != std::floor(steps))
+      refuse(fmt::format("steps of {} is no integer of at least 2", axis_.name), line_);
+    for (int i = 0; i < steps; ++i) add_number(from + i * (to - from) / (steps - 1.0));
+  }
+
+  void add_number(double x) {
+    // Sums of decimals stand for decimals: 0.1 + 2·0.1 is 0.3.
+    x = std::stod(fmt::format("{:.12g}", x));
+    if (axis_.kind == Axis::Kind::Number) return add(x, line_);
+    if (x != std::floor(x)) refuse(fmt::format("{} takes integers, the range has {}", axis_.name, x), line_);
+    add(static_cast<std::int64_t>(x), line_);
+  }
+
+  const Axis& axis_;
+  long long line_;
+  std::set<AxisValue> seen_;
+};
+
+// The keys of a model's own table, of its block and of the file: the first that has one counts.
+struct Layers {
+  const toml::table* own;
+  const toml::table* block;
+  const toml::table& file;
+
+  const toml::node* get(const std::string& key) const {
+    for (const toml::table* table : {own, block})
+      if (const toml::node* node = table ? table->get(key) : nullptr) return node;
+    return file.get(key);
+  }
+};
+
+void require_known_keys(const toml::table& table, const std::vector<std::string>& further) {
+  std::vector<std::string> known = {"budgets", "preset"};
+  known.insert(known.end(), further.begin(), further.end());
+  for (const Axis& axis : axes()) known.emplace_back(axis.name);
+  for (const auto& [key, value] : table) {
+    const std::string name(key.str());
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string nearest = nearest_word(name, known);
+    refuse(fmt::format("unknown key {}{}", name, nearest.empty() ? "" : "; did you mean " + nearest + "?"),
+           static_cast<long long>(key.source().begin.line));
+  }
+}
+
+std::string text(const toml::table& table, const char* key, const std::string& otherwise) {
+  const toml::node* node = table.get(key);
+  if (!node) return otherwise;
+  if (!node->is_string()) refuse(fmt::format("{} is no text", key), line_of(*node));
+  return node->ref<std::string>();
+}
+
+std::vector<std::size_t> budgets(const Layers& layers) {
+  std::vector<std::size_t> sizes;
+  const toml::node* node = layers.get("budgets");
+  if (!node) return sizes;
+  const toml::array* list = node->as_array();
+  if (!list || list->empty())
+    refuse("budgets is no list of bytes; leave it out for 256, 512, 1024, ...", line_of(*node));
+  for (const toml::node& element : *list) {
+    if (!element.is_integer() || element.ref<std::int64_t>() < 1)
+      refuse("a budget is no positive number of bytes", line_of(element));
+    sizes.push_back(static_cast<std::size_t>(element.ref<std::int64_t>()));
+  }
+  std::sort(sizes.begin(), sizes.end());
+  sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
+  return sizes;
+}
+
+// One entry of `models`: a pattern, or a table that holds it as `path` beside keys for its surfaces alone.
+struct ModelEntry {
+  std::string pattern;
+  const toml::table* own;
+  long long line;
+};
+
+ModelEntry model_entry(const toml::node& node) {
+  const toml::table* own = node.as_table();
+  if (own) require_known_keys(*own, {"path"});
+  const toml::node* pattern = own ? own->get("path") : &node;
+  if (!pattern || !pattern->is_string())
+    refuse("a model is no pattern of files, no shape:NAME and no table with one as path", line_of(node));
+  return {pattern->ref<std::string>(), own, line_of(*pattern)};
+}
+
+std::vector<ModelEntry> model_entries(const toml::table* block, const toml::table& file) {
+  std::vector<ModelEntry> entries;
+  const toml::node* node = Layers{nullptr, block, file}.get("models");
+  if (!node) return entries;
+  const toml::array* list = node->as_array();
+  if (!list || list->empty()) refuse("models is no list of patterns: the sweep would have no cell", line_of(*node));
+  const bool above = !block || !block->get("models");
+  for (const toml::node& element : *list) {
+    entries.push_back(model_entry(element));
+    if (!block || !above || !entries.back().own) continue;
+    for (const auto& [key, value] : *entries.back().own)
+      if (const toml::node* both = block->get(key.str()))
+        refuse(fmt::format("{} is set here and for {} above (line {}): give the block models of its own",
+                           std::string(key.str()), entries.back().pattern, line_of(value)),
+               line_of(*both));
+  }
+  return entries;
+}
+
+// A surface and the keys that are its alone, null for none.
+struct ModelSource {
+  std::string source;
+  const toml::table* own;
+};
+
+// A surface that is named twice is one, with the keys of the entry that has some.
+void add_surface(std::vector<ModelSource>& surfaces, ModelSource surface, long long line) {
+  const auto same = std::find_if(surfaces.begin(), surfaces.end(),
+                                 [&](const ModelSource& other) { return other.source == surface.source; });
+  if (same == surfaces.end()) {
+    surfaces.push_back(std::move(surface));
+  } else if (surface.own) {
+    if (same->own && same->own != surface.own)
+      refuse(surface.source + " has keys twice; a key takes a list of values", line);
+    same->own = surface.own;
+  }
+}
+
+std::vector<ModelSource> found_surfaces(const std::vector<ModelEntry>& entries) {
+  std::vector<ModelSource> surfaces;
+  for (const ModelEntry& entry : entries) try {
+      for (std::string& source : matching_models(entry.pattern))
+        add_surface(surfaces, {std::move(source), entry.own}, entry.line);
+    } catch (const Error& error) {
+      if (error.cause() != Cause::CannotOpen) refuse(error.what(), entry.line);
+      refuse(fmt::format("{}; --models takes other surfaces", error.what()), entry.line);
+    }
+  return surfaces;
+}
+
+std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+
+// The surfaces given instead; one that is named as one of the recipe's keeps that one's keys.
+std::vector<ModelSource> replacing_surfaces(const std::vector<std::string>& instead,
+                                            const std::vector<ModelEntry>& entries) {
+  std::vector<ModelSource> surfaces;
+  for (const std::string& pattern : instead)
+    for (const std::string& source : matching_models(pattern)) {
+      const auto entry = std::find_if(entries.begin(), entries.end(), [&](const ModelEntry& e) {
+        return e.own && ::fnmatch(stem(e.pattern).c_str(), stem(source).c_str(), 0) == 0;
+      });
+      // The same surface has the same entry, however often it is given.
+      if (entry == entries.end())
+        add_surface(surfaces, {source, nullptr}, 0);
+      else
+        add_surface(surfaces, {source, entry->own}, entry->line);
+    }
+  return surfaces;
+}
+
+// What the map's options are where no other key sets them.
+std::vector<ParameterizeOptions> presets(const Layers& layers) {
+  const toml::node* node = layers.get("preset");
+  if (!node) return {ParameterizeOptions()};
+  std::vector<ParameterizeOptions> found;
+  const auto add = [&](const toml::node& word) {
+    const std::vector<std::string> words = preset_words();
+    if (!word.is_string() || std::find(words.begin(), words.end(), word.ref<std::string>()) == words.end())
+      refuse(fmt::format("preset is none of {}", fmt::join(words, ", ")), line_of(word));
+    found.push_back(preset_options(word.ref<std::string>()));
+  };
+  if (const toml::array* list = node->as_array()) {
+    if (list->empty()) refuse("preset is an empty list: the sweep would have no cell", line_of(*node));
+    for (const toml::node& word : *list) add(word);
+  } else {
+    add(*node);
+  }
+  return found;
+}
+
+// All combinations, the first axis varying slowest; those that differ only in what does not apply are one.
+std::vector<CellOptions> combinations(const Layers& layers, long long line) {
+  std::vector<CellOptions> cells;
+  for (const ParameterizeOptions& preset : presets(layers)) {
+    CellOptions& cell = cells.emplace_back();
+    cell.parameterize = preset;
+    cell.budgets = budgets(layers);
+  }
+  for (const Axis& axis : axes()) {
+    const toml::node* node = layers.get(axis.name);
+    if (!node) continue;
+    const std::vector<AxisValue> values = AxisReader(axis, *node).values;
+    if (cells.size() * values.size() > kMostCells) refuse(fmt::format("more than {} cells", kMostCells), line);
+    std::vector<CellOptions> product;
+    for (const CellOptions& cell : cells)
+      for (const AxisValue& value : values) {
+        product.push_back(cell);
+        axis.set(product.back(), value);
+      }
+    cells = std::move(product);
+  }
+  std::set<std::string> seen;
+  std::vector<CellOptions> unique;
+  for (const CellOptions& cell : cells) {
+    CellOptions options = normalized(cell);
+    if (seen.insert(options_json(options)).second) unique.push_back(std::move(options));
+  }
+  return unique;
+}
+
+toml::table parse(const std::string& path) {
+  try {
+    return toml::parse(read_file(path), path);
+  } catch (const toml::parse_error& error) {
+    throw Error(Cause::Malformed, std::string(error.description()), Element::Line, error.source().begin.line);
+  }
+}
+
+// The cells of one block; surfaces that follow each other with the same keys share a RecipeBlock.
+void add_block(Recipe& recipe, const toml::table* block, const toml::table& file, long long line,
+               const std::vector<std::string>& instead) {
+  const std::vector<ModelEntry> entries = model_entries(block, file);
+  if (entries.empty() && instead.empty())
+    refuse("there are no models: models = [\"data/*.ply\", \"shape:torus\"]", line);
+  const std::vector<ModelSource> surfaces =
+      instead.empty() ? found_surfaces(entries) : replacing_surfaces(instead, entries);
+  const toml::table* own = nullptr;
+  for (const ModelSource& surface : surfaces) {
+    if (&surface == &surfaces.front() || surface.own != own)
+      recipe.blocks.push_back({{}, combinations({surface.own, block, file}, line)});
+    own = surface.own;
+    recipe.blocks.back().models.push_back(surface.source);
+  }
+}
+
+Recipe recipe_of(const toml::table& file, const std::string& otherwise, const std::vector<std::string>& instead) {
+  Recipe recipe;
+  recipe.name = text(file, "name", otherwise);
+  recipe.description = text(file, "description", "");
+  require_known_keys(file, {"models", "name", "description", "block"});
+  const auto add = [&](const toml::table* block, long long line) { add_block(recipe, block, file, line, instead); };
+  const toml::node* blocks = file.get("block");
+  if (!blocks) {
+    add(nullptr, 1);
+    return recipe;
+  }
+  const toml::array* list = blocks->as_array();
+  if (!list || list->empty()) refuse("block is no list of tables: write [[block]]", line_of(*blocks));
+  for (const toml::node& block : *list) {
+    if (!block.is_table()) refuse("block is no table: write [[block]]", line_of(block));
+    require_known_keys(*block.as_table(), {"models"});
+    add(block.as_table(), line_of(block));
+  }
+  return recipe;
+}
+
+}  // namespace
+
+Recipe read_recipe(const std::string& path, const std::vector<std::string>& models) {
+  try {
+    return recipe_of(parse(path), stem(path), models);
+  } catch (const Error& error) {
+    if (error.cause() == Cause::CannotOpen) throw;
+    throw error.within(path);
+  }
+}
+
+}  // namespace gsp

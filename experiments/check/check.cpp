@@ -1,0 +1,206 @@
+#include "experiments/check/check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "experiments/curve/summary.h"
+#include "metrics/bd_rate.h"
+
+namespace gsp {
+
+namespace {
+
+constexpr const char* kNone = "-";
+
+// The value of an option where nothing is said of it; "-" where there is no such option.
+std::string default_text(const std::string& name) {
+  const auto axis = std::find_if(axes().begin(), axes().end(), [&](const Axis& a) { return name == a.name; });
+  return axis == axes().end() ? kNone : to_string(axis->get({}));
+}
+
+std::string text(double value) { return fmt::format("{:.6g}", value); }
+
+BdCurve bd_curve_of(const BaselineRow& row) {
+  BdCurve curve;
+  for (const RatePoint& point : row.curve) curve.points.push_back({point.bytes, point.psnr_db});
+  if (row.ceiling_db > 0.0) curve.ceiling_db = row.ceiling_db;
+  return curve;
+}
+
+class Checker {
+ public:
+  Checker(const Baseline& baseline, const Baseline& run, const CheckOptions& options)
+      : baseline_(baseline), run_(run), options_(options) {}
+
+  CheckResult result() {
+    result_.rows = baseline_.rows;
+    for (const BaselineRow& row : baseline_.rows) {
+      before_ = &row;
+      const BaselineRow* now = find(run_, row);
+      if (!now)
+        moved("row", "there", "missing", kNone, Verdict::Regressed);
+      else
+        compare(row, *now);
+    }
+    for (const BaselineRow& row : run_.rows) {
+      before_ = &row;
+      if (!find(baseline_, row)) moved("row", "missing", "there", kNone, Verdict::Added);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  static const BaselineRow* find(const Baseline& where, const BaselineRow& row) {
+    const auto found = std::find_if(where.rows.begin(), where.rows.end(), [&](const BaselineRow& other) {
+      return other.model == row.model && other.label == row.label;
+    });
+    return found == where.rows.end() ? nullptr : &*found;
+  }
+
+  void moved(const std::string& what, const std::string& before, const std::string& after, const std::string& allowed,
+             Verdict verdict) {
+    result_.moved.push_back({before_->model, before_->label, what, before, after, allowed, verdict});
+  }
+
+  void compare(const BaselineRow& before, const BaselineRow& now) {
+    if (before.cause != now.cause) {
+      const auto state = [](const std::string& cause) { return cause.empty() ? "done" : "failed (" + cause + ")"; };
+      moved("row", state(before.cause), state(now.cause), kNone,
+            now.cause.empty() ? Verdict::Improved : Verdict::Regressed);
+    }
+    compare_options(before, now);
+    compare_numbers(before.numbers, now.numbers);
+    compare_bd(before, now);
+    if (options_.times) compare_numbers(before.times, now.times);
+  }
+
+  void compare_options(const BaselineRow& before, const BaselineRow& now) {
+    std::set<std::string> names;
+    for (const auto* options : {&before.options, &now.options})
+      for (const auto& [name, value] : *options) names.insert(name);
+    // An option that is newer than the baseline had its default when that was measured.
+    const auto value_of = [](const BaselineRow& row, const std::string& name) {
+      const auto found = row.options.find(name);
+      return found == row.options.end() ? default_text(name) : found->second;
+    };
+    for (const std::string& name : names)
+      if (value_of(before, name) != value_of(now, name))
+        moved("option " + name, value_of(before, name), value_of(now, name), "none", Verdict::Changed);
+  }
+
+  void compare_numbers(const std::map<std::string, double>& before, const std::map<std::string, double>& now) {
+    for (const auto& [name, value] : before) {
+      const auto found = now.find(name);
+      if (found == now.end())
+        moved(name, text(value), kNone, kNone, Verdict::Regressed);
+      else
+        compare_number(name, value, found->second);
+    }
+  }
+
+  void compare_number(const std::string& name, double before, double now) {
+    ++result_.compared;
+    const Quantity& quantity = quantity_of(name);
+    const auto given = baseline_.tolerances.find(quantity.name);
+    const Tolerance tolerance = given == baseline_.tolerances.end() ? quantity.tolerance : given->second;
+    const double allowed = std::max(tolerance.absolute, tolerance.relative * std::abs(before));
+    // What is no number any more has moved too.
+    if (std::abs(now - before) <= allowed) return;
+    Verdict verdict = Verdict::Changed;
+    if (quantity.direction != Direction::MayNotChange && std::isfinite(now))
+      verdict =
+          (now > before) == (quantity.direction == Direction::HigherIsBetter) ? Verdict::Improved : Verdict::Regressed;
+    moved(name, text(before), text(now), text(allowed), verdict);
+  }
+
+  void compare_bd(const BaselineRow& before, const BaselineRow& now) {
+    const BdOptions options{.ceiling_margin_db = kCeilingMarginDb};
+    try {
+      bd_compare(bd_curve_of(before), bd_curve_of(before), options);
+    } catch (const Error&) {
+      ++result_.without_bd;
+      return;
+    }
+    try {
+      compare_number("bd_rate", 0.0, bd_compare(bd_curve_of(before), bd_curve_of(now), options).rate.value);
+    } catch (const Error& error) {
+      moved("bd_rate", "0", error.what(), kNone, Verdict::Regressed);
+    }
+  }
+
+  const Baseline& baseline_;
+  const Baseline& run_;
+  const CheckOptions& options_;
+  const BaselineRow* before_ = nullptr;
+  CheckResult result_;
+};
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (char c : text) switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += static_cast<unsigned char>(c) < 32 ? ' ' : c;
+    }
+  return result;
+}
+
+}  // namespace
+
+const char* verdict_name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Regressed:
+      return "regressed";
+    case Verdict::Changed:
+      return "changed";
+    case Verdict::Improved:
+      return "improved";
+    case Verdict::Added:
+      break;
+  }
+  return "added";
+}
+
+bool CheckResult::passed() const {
+  return std::none_of(moved.begin(), moved.end(), [](const Movement& movement) { return movement.fails(); });
+}
+
+CheckResult check(const Baseline& baseline, const Baseline& run, const CheckOptions& options) {
+  return Checker(baseline, run, options).result();
+}
+
+std::string junit_report(const CheckResult& result, const std::string& recipe) {
+  std::string cases;
+  int failures = 0;
+  for (const BaselineRow& row : result.rows) {
+    std::string message;
+    for (const Movement& m : result.moved)
+      if (m.fails() && m.model == row.model && m.label == row.label)
+        message += fmt::format("{}: {} -> {} (allowed {})\n", m.what, m.before, m.after, m.allowed);
+    failures += !message.empty();
+    cases += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", escaped(row.model), escaped(row.label));
+    cases += message.empty()
+                 ? "/>\n"
+                 : fmt::format("><failure message=\"regressed\">{}</failure></testcase>\n", escaped(message));
+  }
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"{}\" tests=\"{}\" "
+      "failures=\"{}\">\n{}</testsuite>\n",
+      escaped(recipe), result.rows.size(), failures, cases);
+}
+
+}  // namespace gsp

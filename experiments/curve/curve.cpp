@@ -1,0 +1,67 @@
+#include "experiments/curve/curve.h"
+
+#include "experiments/curve/stages.h"
+
+namespace gsp {
+
+namespace {
+
+CellOptions cell_options(const CurveOptions& options, const std::string& method,
+                         StreamMode mode = StreamMode::Embedded) {
+  return normalized({.method = method,
+                     .parameterize = options.parameterize,
+                     .remesh = options.remesh,
+                     .encode = options.encode,
+                     .mode = mode,
+                     .budgets = options.budgets,
+                     .samples = options.samples,
+                     .seed = options.seed});
+}
+
+// The rows of one method: its remesh, coded by every mode and decoded at every budget.
+std::vector<CurvePoint> method_curve(const ParameterizeResult& result, const std::string& method,
+                                     const CurveOptions& options, const Meter& meter, Progress& progress) {
+  const MeasuredRemesh remesh = measured_remesh(result.map, options.remesh, meter, options.samples, progress);
+  const Bytes embedded = encode(remesh.mesh, options.encode, progress);
+  std::vector<CurvePoint> points;
+  for (StreamMode mode : options.modes) {
+    std::vector<CurvePoint> rows =
+        mode == StreamMode::Embedded
+            ? decoded_curve(embedded, options.budgets, meter, options.samples, progress)
+            : decoded_streams(fixed_streams(remesh.mesh, options.encode, embedded, options.budgets, progress), meter,
+                              options.samples, progress);
+    for (CurvePoint& row : rows) describe(row, cell_options(options, method, mode), remesh.shape);
+    points.insert(points.end(), rows.begin(), rows.end());
+  }
+  return points;
+}
+
+}  // namespace
+
+CurveRun rate_distortion_curve(const Mesh& mesh, const std::string& model, const CurveOptions& options,
+                               Progress& progress) {
+  CurveRun run;
+  const auto append = [&](const std::vector<CurvePoint>& points) {
+    run.points.insert(run.points.end(), points.begin(), points.end());
+    if (options.on_progress) options.on_progress(run);
+  };
+  const std::vector<ParameterizeResult> results =
+      parameterize_all(mesh, options.methods, options.parameterize, progress);
+  if (!results.empty()) run.omega = results.front().omega;
+
+  const Meter meter(mesh, model, options.seed);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const std::string method = method_name(options.methods[i]);
+    Progress named = progress.within(method);
+    append(method_curve(results[i], method, options, meter, named));
+  }
+  for (const char* anchor : {"draco", "decimate-draco"}) {
+    if (!options.anchors) break;
+    std::vector<CurvePoint> points = anchor_curve(anchor, meter, options.samples, progress);
+    for (CurvePoint& point : points) describe(point, cell_options(options, anchor), {});
+    append(points);
+  }
+  return run;
+}
+
+}  // namespace gsp

@@ -1,0 +1,93 @@
+#include "experiments/plot/gnuplot.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "mesh/atomic_file.h"
+#include "mesh/error.h"
+
+extern char** environ;
+
+namespace gsp {
+
+namespace {
+
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(std::string path) : path_(std::move(path)) { std::filesystem::create_directories(path_); }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+// Runs gnuplot in `folder` on a script there.
+void run_gnuplot(const std::string& folder, const std::string& script) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  std::string program = "gnuplot", argument = script;
+  char* const argv[] = {program.data(), argument.data(), nullptr};
+  pid_t child = 0;
+  const int failure = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, argv, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failure != 0)
+    throw Error(Cause::ToolMissing,
+                std::string("cannot run gnuplot, which draws the figures: ") + std::strerror(failure));
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw Error(Cause::ToolMissing, "gnuplot failed on " + folder + "/" + script);
+}
+
+}  // namespace
+
+std::string gnuplot_quoted(const std::string& text) {
+  std::string result = "'";
+  for (char c : text)
+    if (c == '\'')
+      result += "''";
+    else
+      result += static_cast<unsigned char>(c) < 32 ? ' ' : c;
+  return result + "'";
+}
+
+std::string figure_script(const std::string& name, const std::string& setup, const std::string& commands, int width,
+                          int height) {
+  std::string script = fmt::format("# Draws {0}.png and {0}.svg: run gnuplot on this file.\n{1}", name, setup);
+  for (const auto& [terminal, ending] : {std::pair{"pngcairo", "png"}, std::pair{"svg", "svg"}})
+    script += fmt::format("set terminal {} size {},{} background rgb 'white'\nset output {}\n{}unset output\n",
+                          terminal, width, height, gnuplot_quoted(name + "." + ending), commands);
+  return script;
+}
+
+std::vector<std::string> draw_figure(const std::string& folder, const std::string& name, const std::string& script) {
+  AtomicFile file(folder + "/" + name + ".gp");
+  file.stream() << script;
+  file.commit();
+  const std::vector<std::string> figures = {name + ".png", name + ".svg"};
+  // Drawn in a folder of its own and moved, so that an interrupt leaves no half of a figure.
+  const ScratchFolder scratch(folder + "/.plot-" + std::to_string(::getpid()));
+  run_gnuplot(scratch.path(), "../" + name + ".gp");
+  for (const std::string& figure : figures)
+    std::filesystem::rename(scratch.path() + "/" + figure, folder + "/" + figure);
+  return {figures[0], figures[1], name + ".gp"};
+}
+
+}  // namespace gsp

@@ -1,0 +1,341 @@
+#include "experiments/store/store.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "experiments/curve/stages.h"
+#include "experiments/store/database.h"
+
+namespace gsp {
+
+namespace {
+
+using SortedJson = nlohmann::json;
+
+constexpr int kSchemaVersion = 1;
+
+// Keys are hashes, so tables without rowid hold the same bytes whatever the order in which rows came.
+constexpr const char* kSchema = R"(
+CREATE TABLE recipe(name TEXT PRIMARY KEY, turn INTEGER NOT NULL) WITHOUT ROWID;
+CREATE TABLE model(recipe TEXT, position INTEGER, name TEXT NOT NULL, source TEXT NOT NULL, surface TEXT NOT NULL,
+  path TEXT NOT NULL, vertices INTEGER NOT NULL, faces INTEGER NOT NULL, cause TEXT NOT NULL, failure TEXT NOT NULL,
+  PRIMARY KEY(recipe, position)) WITHOUT ROWID;
+CREATE TABLE cell(recipe TEXT, position INTEGER, model TEXT NOT NULL, label TEXT NOT NULL, options TEXT NOT NULL,
+  parameterize TEXT NOT NULL, remesh TEXT NOT NULL, encode TEXT NOT NULL, measure TEXT NOT NULL,
+  PRIMARY KEY(recipe, position)) WITHOUT ROWID;
+CREATE TABLE stage(key TEXT PRIMARY KEY, kind TEXT NOT NULL, input TEXT NOT NULL, options TEXT NOT NULL,
+  version TEXT NOT NULL, cause TEXT NOT NULL, failure TEXT NOT NULL, numbers TEXT NOT NULL,
+  seconds REAL NOT NULL, cpu_seconds REAL NOT NULL, reference_seconds REAL NOT NULL) WITHOUT ROWID;
+CREATE TABLE artefact(stage TEXT, role TEXT, path TEXT NOT NULL, PRIMARY KEY(stage, role)) WITHOUT ROWID;
+CREATE TABLE point(stage TEXT, position INTEGER, coder TEXT NOT NULL, bytes INTEGER NOT NULL,
+  bits_per_vertex REAL NOT NULL, faces INTEGER NOT NULL, rms_forward REAL NOT NULL, rms_backward REAL NOT NULL,
+  rms REAL NOT NULL, hausdorff REAL NOT NULL, psnr_db REAL NOT NULL, samples INTEGER NOT NULL,
+  standard_error_db REAL NOT NULL, seed INTEGER NOT NULL, PRIMARY KEY(stage, position)) WITHOUT ROWID;
+)";
+
+std::string place(const std::string& folder, const std::string& path) {
+  return path.empty() ? path : folder + '/' + path;
+}
+
+std::string key_of(const PlannedCell& cell, StageKind kind) {
+  const auto key = cell.keys.find(kind);
+  return key == cell.keys.end() ? std::string() : key->second;
+}
+
+std::int64_t signed_of(std::size_t value) { return static_cast<std::int64_t>(value); }
+
+CurvePoint read_point(const Statement& row) {
+  CurvePoint p;
+  p.coder = row.text(1);
+  p.bytes = static_cast<std::size_t>(row.integer(2));
+  p.bits_per_vertex = row.real(3);
+  p.faces = static_cast<int>(row.integer(4));
+  p.rms_forward = row.real(5);
+  p.rms_backward = row.real(6);
+  p.rms = row.real(7);
+  p.hausdorff = row.real(8);
+  p.psnr_db = row.real(9);
+  p.samples = static_cast<std::size_t>(row.integer(10));
+  p.standard_error_db = row.real(11);
+  p.seed = static_cast<std::uint64_t>(row.integer(12));
+  return p;
+}
+
+}  // namespace
+
+const char* status_name(CellStatus status) {
+  switch (status) {
+    case CellStatus::Waiting:
+      return "waiting";
+    case CellStatus::Done:
+      return "done";
+    case CellStatus::Failed:
+      break;
+  }
+  return "failed";
+}
+
+std::string fixed_stream_role(std::size_t bytes) { return "stream of " + std::to_string(bytes) + " bytes"; }
+
+const StageResult* StoredCell::stage(StageKind kind) const {
+  const auto found = std::find_if(stages.begin(), stages.end(), [&](const StageResult& s) { return s.kind == kind; });
+  return found == stages.end() ? nullptr : &*found;
+}
+
+std::optional<double> StoredCell::number(const std::string& name) const {
+  for (const StageResult& result : stages)
+    if (const auto found = result.numbers.find(name); found != result.numbers.end()) return found->second;
+  return std::nullopt;
+}
+
+std::string StoredCell::artefact(const std::string& role) const {
+  for (const StageResult& result : stages)
+    if (const auto found = result.artefacts.find(role); found != result.artefacts.end()) return found->second;
+  return {};
+}
+
+std::string StoredCell::stream_file(std::size_t bytes) const {
+  return artefact(options.mode == StreamMode::Fixed ? fixed_stream_role(bytes) : "stream");
+}
+
+std::vector<CurvePoint> StoredCell::points() const {
+  const StageResult* measured = stage(StageKind::Measure);
+  if (!measured || status != CellStatus::Done) return {};
+  RemeshShape shape;
+  shape.base_vertices = static_cast<int>(number("base_vertices").value_or(0.0));
+  shape.base_faces = static_cast<int>(number("base_faces").value_or(0.0));
+  shape.level = static_cast<int>(number("level").value_or(0.0));
+  shape.remesh_error = number("remesh_error").value_or(0.0);
+  std::vector<CurvePoint> rows = measured->points;
+  for (CurvePoint& row : rows) {
+    row.model = model;
+    describe(row, options, shape);
+  }
+  return rows;
+}
+
+std::vector<StoredCell> stored_cells(const Plan& plan, const std::map<std::string, StageResult>& results,
+                                     const std::string& folder) {
+  std::map<std::string, const StoredModel*> models;
+  for (const StoredModel& model : plan.models) models[model.name] = &model;
+  std::vector<StoredCell> cells;
+  for (const PlannedCell& planned : plan.cells) {
+    StoredCell& cell = cells.emplace_back();
+    cell.position = static_cast<int>(cells.size()) - 1;
+    cell.model = planned.model;
+    cell.label = planned.label;
+    cell.options = planned.options;
+    cell.cause = models[planned.model]->cause;
+    cell.failure = models[planned.model]->failure;
+    for (const auto& [kind, key] : planned.keys) {
+      const auto found = results.find(key);
+      if (found == results.end()) continue;
+      StageResult result = found->second;
+      for (auto& [role, path] : result.artefacts) path = place(folder, path);
+      if (cell.cause.empty() && result.failed()) {
+        cell.cause = result.cause;
+        cell.failure = result.failure;
+      }
+      cell.stages.push_back(std::move(result));
+    }
+    if (!cell.cause.empty())
+      cell.status = CellStatus::Failed;
+    else if (cell.stage(StageKind::Measure))
+      cell.status = CellStatus::Done;
+  }
+  return cells;
+}
+
+struct Store::Impl {
+  Database database;
+
+  explicit Impl(const std::string& path, bool create) : database(path, create) {
+    const auto version = database.prepare("PRAGMA user_version");
+    version->step();
+    const auto found = version->integer(0);
+    version->restart();
+    if (found == 0 && create) {
+      database.execute("PRAGMA journal_mode=WAL");
+      Transaction transaction(database);
+      database.execute(kSchema);
+      database.execute("PRAGMA user_version=" + std::to_string(kSchemaVersion));
+      transaction.commit();
+    } else if (found != kSchemaVersion) {
+      throw Error(Cause::Malformed, path + " has schema " + std::to_string(found) + ", this gsp reads schema " +
+                                        std::to_string(kSchemaVersion) + "; sweep into a new folder");
+    }
+    // After a crash of the program everything committed is there; after one of the machine the last results may be
+    // gone, and are computed again.
+    database.execute("PRAGMA synchronous=NORMAL");
+  }
+
+  std::string recipe_or_latest(const std::string& name) const {
+    const auto row = database.prepare(name.empty() ? "SELECT name FROM recipe ORDER BY turn DESC LIMIT 1"
+                                                   : "SELECT name FROM recipe WHERE name = ?");
+    if (!name.empty()) row->bind(name);
+    if (!row->step())
+      throw Error(Cause::BadOption, name.empty() ? "the store holds no recipe" : "the store holds no recipe " + name);
+    return row->text(0);
+  }
+
+  void make_latest(const std::string& recipe) {
+    const auto latest = database.prepare("SELECT name, turn FROM recipe ORDER BY turn DESC LIMIT 1");
+    std::int64_t turn = 1;
+    if (latest->step()) {
+      if (latest->text(0) == recipe) return;
+      turn = latest->integer(1) + 1;
+    }
+    database.prepare("INSERT OR REPLACE INTO recipe VALUES(?,?)")->run(recipe, turn);
+  }
+
+  void put_one(const StageResult& r) {
+    database.prepare("INSERT OR REPLACE INTO stage VALUES(?,?,?,?,?,?,?,?,?,?,?)")
+        ->run(r.key, std::string(stage_name(r.kind)), r.input, r.options, r.version, r.cause, r.failure,
+              SortedJson(r.numbers).dump(), r.seconds, r.cpu_seconds, r.reference_seconds);
+    forget_details(r.key);
+    const auto artefact = database.prepare("INSERT INTO artefact VALUES(?,?,?)");
+    for (const auto& [role, path] : r.artefacts) artefact->run(r.key, role, path);
+    const auto point = database.prepare("INSERT INTO point VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+    std::int64_t position = 0;
+    for (const CurvePoint& p : r.points)
+      point->run(r.key, position++, p.coder, signed_of(p.bytes), p.bits_per_vertex, std::int64_t{p.faces},
+                 p.rms_forward, p.rms_backward, p.rms, p.hausdorff, p.psnr_db, signed_of(p.samples),
+                 p.standard_error_db, static_cast<std::int64_t>(p.seed));
+  }
+
+  void forget_details(const std::string& key) {
+    database.prepare("DELETE FROM artefact WHERE stage = ?")->run(key);
+    database.prepare("DELETE FROM point WHERE stage = ?")->run(key);
+  }
+};
+
+Store::Store(std::string folder, bool create) : folder_(std::move(folder)) {
+  const std::string path = folder_ + "/results.sqlite";
+  if (create) {
+    std::error_code failed;
+    std::filesystem::create_directories(folder_ + "/artefacts", failed);
+    if (failed) throw Error(Cause::CannotWrite, "cannot make " + folder_ + ": " + failed.message());
+  } else if (!std::filesystem::is_regular_file(path)) {
+    throw Error(Cause::CannotOpen, folder_ + " holds no results.sqlite: gsp sweep makes such a folder");
+  }
+  impl_ = std::make_unique<Impl>(path, create);
+}
+
+Store Store::open(const std::string& folder) { return Store(folder, false); }
+Store Store::create(const std::string& folder) { return Store(folder, true); }
+Store::~Store() = default;
+Store::Store(Store&&) noexcept = default;
+Store& Store::operator=(Store&&) noexcept = default;
+
+std::vector<std::string> Store::recipes() const {
+  std::vector<std::string> names;
+  const auto row = impl_->database.prepare("SELECT name FROM recipe ORDER BY turn DESC");
+  while (row->step()) names.push_back(row->text(0));
+  return names;
+}
+
+Plan Store::plan(const std::string& recipe) const {
+  Plan plan;
+  plan.recipe = impl_->recipe_or_latest(recipe);
+  const auto model = impl_->database.prepare(
+      "SELECT name, source, surface, path, vertices, faces, cause, failure FROM model WHERE recipe = ? ORDER BY "
+      "position");
+  model->bind(plan.recipe);
+  while (model->step())
+    plan.models.push_back({model->text(0), model->text(1), model->text(2), model->text(3),
+                           static_cast<int>(model->integer(4)), static_cast<int>(model->integer(5)), model->text(6),
+                           model->text(7)});
+  const auto row = impl_->database.prepare(
+      "SELECT model, label, options, parameterize, remesh, encode, measure FROM cell WHERE recipe = ? ORDER BY "
+      "position");
+  row->bind(plan.recipe);
+  while (row->step()) {
+    PlannedCell& cell = plan.cells.emplace_back();
+    cell.model = row->text(0);
+    cell.label = row->text(1);
+    cell.options = options_from_json(row->text(2));
+    int column = 3;
+    for (StageKind kind : kStageKinds)
+      if (std::string key = row->text(column++); !key.empty()) cell.keys[kind] = std::move(key);
+  }
+  return plan;
+}
+
+std::vector<StoredModel> Store::models(const std::string& recipe) const {
+  std::vector<StoredModel> models = plan(recipe).models;
+  for (StoredModel& model : models) model.path = place(folder_, model.path);
+  return models;
+}
+
+std::vector<StoredCell> Store::cells(const std::string& recipe) const {
+  return stored_cells(plan(recipe), results(), folder_);
+}
+
+std::map<std::string, StageResult> Store::results() const {
+  std::map<std::string, StageResult> results;
+  const auto stage = impl_->database.prepare(
+      "SELECT key, kind, input, options, version, cause, failure, numbers, seconds, cpu_seconds, reference_seconds "
+      "FROM "
+      "stage");
+  while (stage->step()) {
+    StageResult& r = results[stage->text(0)];
+    r.key = stage->text(0);
+    r.kind = stage_of(stage->text(1));
+    r.input = stage->text(2);
+    r.options = stage->text(3);
+    r.version = stage->text(4);
+    r.cause = stage->text(5);
+    r.failure = stage->text(6);
+    const SortedJson numbers = SortedJson::parse(stage->text(7), nullptr, false);
+    for (const auto& [name, value] : numbers.items())
+      if (value.is_number()) r.numbers[name] = value.get<double>();
+    r.seconds = stage->real(8);
+    r.cpu_seconds = stage->real(9);
+    r.reference_seconds = stage->real(10);
+  }
+  const auto artefact = impl_->database.prepare("SELECT stage, role, path FROM artefact");
+  while (artefact->step()) results[artefact->text(0)].artefacts[artefact->text(1)] = artefact->text(2);
+  const auto point = impl_->database.prepare(
+      "SELECT stage, coder, bytes, bits_per_vertex, faces, rms_forward, rms_backward, rms, hausdorff, psnr_db, "
+      "samples, "
+      "standard_error_db, seed FROM point ORDER BY stage, position");
+  while (point->step()) results[point->text(0)].points.push_back(read_point(*point));
+  return results;
+}
+
+void Store::replace_plan(const Plan& plan) {
+  Transaction transaction(impl_->database);
+  impl_->make_latest(plan.recipe);
+  impl_->database.prepare("DELETE FROM model WHERE recipe = ?")->run(plan.recipe);
+  impl_->database.prepare("DELETE FROM cell WHERE recipe = ?")->run(plan.recipe);
+  const auto model = impl_->database.prepare("INSERT INTO model VALUES(?,?,?,?,?,?,?,?,?,?)");
+  std::int64_t position = 0;
+  for (const StoredModel& m : plan.models)
+    model->run(plan.recipe, position++, m.name, m.source, m.surface_key, m.path, std::int64_t{m.vertices},
+               std::int64_t{m.faces}, m.cause, m.failure);
+  const auto cell = impl_->database.prepare("INSERT INTO cell VALUES(?,?,?,?,?,?,?,?,?)");
+  position = 0;
+  for (const PlannedCell& c : plan.cells)
+    cell->run(plan.recipe, position++, c.model, c.label, options_json(c.options), key_of(c, StageKind::Parameterize),
+              key_of(c, StageKind::Remesh), key_of(c, StageKind::Encode), key_of(c, StageKind::Measure));
+  transaction.commit();
+}
+
+void Store::put(const std::vector<StageResult>& results) {
+  Transaction transaction(impl_->database);
+  for (const StageResult& result : results) impl_->put_one(result);
+  transaction.commit();
+}
+
+void Store::erase(const std::vector<std::string>& keys) {
+  Transaction transaction(impl_->database);
+  const auto stage = impl_->database.prepare("DELETE FROM stage WHERE key = ?");
+  for (const std::string& key : keys) {
+    stage->run(key);
+    impl_->forget_details(key);
+  }
+  transaction.commit();
+}
+
+}  // namespace gsp

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "param/map/lattice.h"
+
+namespace gsp {
+
+/// The abstract parameter domain: base triangles, each an equilateral chart with corners 0, 1, ω, glued along edges.
+struct BaseComplex {
+  std::vector<int> vertices;    ///< #B, for each base vertex its vertex in the surface
+  std::vector<Triangle> faces;  ///< #P, indices into `vertices`, oriented like the surface
+  std::vector<int> twins;       ///< #3P, half-edge 3f + k (corner k to k+1) -> its twin, -1 on a boundary
+
+  int vertex_count() const { return static_cast<int>(vertices.size()); }
+  int face_count() const { return static_cast<int>(faces.size()); }
+
+  /// Fills `twins` from `faces`. Call once after the faces are set.
+  void connect();
+
+  /// The change of chart across half-edge h of face h / 3, from that face's chart into the chart of the neighbour.
+  /// h must have a twin.
+  Transition across(int h) const;
+};
+
+}  // namespace gsp

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "param/map/parameterization.h"
+
+namespace gsp {
+
+/// Writes `*.param.ply` as design.md gives it (binary little-endian PLY, texture coordinates are chart positions),
+/// whole and then renamed. Throws Error(CannotWrite).
+void write_parameterization(const std::string& path, const Parameterization& map);
+
+/// Reads `*.param.ply`. Checks every index and count against the file before it takes memory.
+/// Throws Error: CannotOpen, Malformed, Truncated, IndexOutOfRange, NonFinite.
+Parameterization read_parameterization(const std::string& path);
+
+}  // namespace gsp

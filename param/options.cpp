@@ -1,0 +1,45 @@
+#include "param/options.h"
+
+namespace gsp {
+
+ParameterizeOptions paper_options() {
+  ParameterizeOptions options;
+  options.objective = Objective::Linear;
+  options.weights = Weights::MeanValue;
+  options.base_edges = BaseEdges::Keep;
+  return options;
+}
+
+const char* objective_name(Objective objective) { return objective == Objective::Linear ? "linear" : "distortion"; }
+
+const char* weights_name(Weights weights) {
+  switch (weights) {
+    case Weights::MeanValue:
+      return "mean-value";
+    case Weights::Cotangent:
+      return "cotangent";
+    case Weights::Uniform:
+      return "uniform";
+  }
+  return "unknown";
+}
+
+const char* corners_name(Corners corners) { return corners == Corners::Gradient ? "gradient" : "relax"; }
+
+const char* base_edges_name(BaseEdges base_edges) { return base_edges == BaseEdges::Flip ? "flip" : "keep"; }
+
+const char* method_name(Method method) {
+  switch (method) {
+    case Method::Gsp:
+      return "gsp";
+    case Method::Maps:
+      return "maps";
+    case Method::MapsSmoothed:
+      return "maps-smoothed";
+    case Method::Hybrid:
+      return "hybrid";
+  }
+  return "unknown";
+}
+
+}  // namespace gsp

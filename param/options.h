@@ -1,0 +1,81 @@
+#pragma once
+
+namespace gsp {
+
+/// How the map over the base complex is made.
+enum class Method {
+  Gsp,           ///< the paper: global system with transitions, corner relaxation (§3.2)
+  Maps,          ///< the initial map of the simplification, as MAPS leaves it (Lee et al. 1998)
+  MapsSmoothed,  ///< the same, smoothed by Loop subdivision on the parameters (the paper's figure 1a)
+  Hybrid         ///< the same, each pair of adjacent patches relaxed with its boundary held, several times (figure 1c)
+};
+
+/// "gsp", "maps", "maps-smoothed", "hybrid".
+const char* method_name(Method method);
+
+/// What the smooth map of Method::Gsp minimises.
+enum class Objective {
+  Distortion,  ///< `DistortionEnergy` over maps without folds: near-isometric, measured better in remeshing error and
+               ///< rate
+  Linear       ///< the paper's global linear system (§3.2.1), repaired where it folds
+};
+
+/// "distortion", "linear".
+const char* objective_name(Objective objective);
+
+/// Of the linear systems: the global one of Objective::Linear, and those on the discs of the corner relaxation.
+enum class Weights {
+  MeanValue,  ///< the paper's (Floater 2003): positive, not symmetric
+  Cotangent,  ///< on the intrinsic Delaunay triangulation: the map of least Dirichlet energy
+  Uniform     ///< 1: knows the connectivity alone
+};
+
+/// "mean-value", "cotangent", "uniform".
+const char* weights_name(Weights weights);
+
+/// How the patch corners find their places.
+enum class Corners {
+  Relax,    ///< the paper's relaxation on discs (§3.2.2)
+  Gradient  ///< down the gradient of what the map minimises, from vertex to vertex
+};
+
+/// "relax", "gradient".
+const char* corners_name(Corners corners);
+
+/// Whether the base keeps the edges that the simplification left.
+enum class BaseEdges {
+  Flip,  ///< where that lowers the distortion; with Objective::Distortion alone
+  Keep   ///< the paper's
+};
+
+/// "flip", "keep".
+const char* base_edges_name(BaseEdges base_edges);
+
+struct ParameterizeOptions {
+  Method method = Method::Gsp;
+  Objective objective = Objective::Distortion;
+  Weights weights = Weights::MeanValue;
+  Corners corners = Corners::Relax;
+  BaseEdges base_edges = BaseEdges::Flip;
+  /// Base vertices to stop at, at least 4. 0: automatic, before metric distortion dominates Ω (§3.1.1, figure 5d).
+  /// The simplification stops earlier, with a note, where no vertex can be removed any more.
+  int base_vertices = 0;
+  double gamma = 2.0;   ///< weight of triangle shape in Ω, >= 0
+  double mu = 1.0;      ///< weight of area dispersion in Ω, >= 0
+  int relaxations = 4;  ///< at most so many corner relaxations between solves, >= 0; it ends when no corner moves
+};
+
+/// Options of the paper's exact method: its linear system with mean value weights and its corner relaxation (§3.2),
+/// besides the repair of folds, since an invalid map is no result.
+ParameterizeOptions paper_options();
+
+/// One vertex removal: the three area-weighted parts of Ω, for figure 5d.
+struct OmegaRecord {
+  int remaining_vertices = 0;
+  double shape = 0.0;       ///< Σ A γ (σ-1)²
+  double dispersion = 0.0;  ///< Σ A μ (ρ-1)²
+  double metric = 0.0;      ///< Σ A (δ-1)²
+  double omega() const { return shape + dispersion + metric; }
+};
+
+}  // namespace gsp

@@ -1,0 +1,137 @@
+#include "param/removal/triangle_complex.h"
+
+namespace gsp {
+
+TriangleComplex::TriangleComplex(const Surface& surface)
+    : corners_(surface.mesh.faces),
+      neighbours_(surface.mesh.faces.size()),
+      incident_(surface.mesh.positions.size(), -1) {
+  for (int h = 0; h < static_cast<int>(surface.halfedges.twin.size()); ++h) {
+    const int twin = surface.halfedges.twin[h];
+    neighbours_[h / 3][h % 3] = twin < 0 ? -1 : twin / 3;
+  }
+  for (std::size_t v = 0; v < incident_.size(); ++v)
+    if (surface.halfedges.outgoing[v] >= 0) incident_[v] = surface.halfedges.outgoing[v] / 3;
+  label_components(surface);
+}
+
+void TriangleComplex::label_components(const Surface& surface) {
+  const int count = surface.mesh.vertex_count();
+  component_.assign(count, -1);
+  loop_.assign(count, -1);
+  std::vector<int> stack;
+  for (int seed = 0; seed < count; ++seed) {
+    if (incident_[seed] < 0 || component_[seed] >= 0) continue;
+    const int label = static_cast<int>(component_size_.size());
+    component_size_.push_back(0);
+    component_[seed] = label;
+    stack.push_back(seed);
+    while (!stack.empty()) {
+      const int v = stack.back();
+      stack.pop_back();
+      ++component_size_[label];
+      surface.for_each_neighbour(v, [&](int w, int, bool) {
+        if (component_[w] >= 0) return;
+        component_[w] = label;
+        stack.push_back(w);
+      });
+    }
+  }
+  for (int seed = 0; seed < count; ++seed) {
+    if (loop_[seed] >= 0 || !surface.halfedges.boundary_vertex(seed)) continue;
+    loop_size_.push_back(0);
+    for (int v = seed; loop_[v] < 0; v = surface.halfedges.to(surface.halfedges.outgoing[v])) {
+      loop_[v] = static_cast<int>(loop_size_.size()) - 1;
+      ++loop_size_.back();
+    }
+  }
+}
+
+int TriangleComplex::corner_index(int triangle, int vertex) const {
+  for (int k = 0; k < 3; ++k)
+    if (corners_[triangle][k] == vertex) return k;
+  return -1;
+}
+
+int TriangleComplex::edge_towards(int triangle, int other) const {
+  for (int k = 0; k < 3; ++k)
+    if (neighbours_[triangle][k] == other) return k;
+  return -1;
+}
+
+void TriangleComplex::gather(int vertex, Star& star) const {
+  star.center = vertex;
+  star.ring.clear();
+  star.triangles.clear();
+  star.boundary = loop_[vertex] >= 0;
+  int t = incident_[vertex];
+  if (star.boundary) {  // clockwise to the first triangle of the fan
+    for (int before = t; before >= 0; before = neighbours_[t][corner_index(t, vertex)]) t = before;
+  }
+  const int first = t;
+  do {
+    const int m = corner_index(t, vertex);
+    star.triangles.push_back(t);
+    star.ring.push_back(corners_[t][(m + 1) % 3]);
+    const int next = neighbours_[t][(m + 2) % 3];
+    if (next < 0) star.ring.push_back(corners_[t][(m + 2) % 3]);
+    t = next;
+  } while (t >= 0 && t != first);
+}
+
+bool TriangleComplex::edge_exists(int a, int b) const {
+  const int first = incident_[a];
+  int t = first;
+  do {  // counter-clockwise
+    if (corner_index(t, b) >= 0) return true;
+    t = neighbours_[t][(corner_index(t, a) + 2) % 3];
+  } while (t >= 0 && t != first);
+  if (t == first) return false;
+  for (t = neighbours_[first][corner_index(first, a)]; t >= 0; t = neighbours_[t][corner_index(t, a)])
+    if (corner_index(t, b) >= 0) return true;
+  return false;
+}
+
+void TriangleComplex::replace(const Star& star, const std::vector<RingTriangle>& triangles, std::vector<int>& slots) {
+  const int n = star.size();
+  std::vector<int> outer(star.triangles.size());
+  for (std::size_t k = 0; k < outer.size(); ++k) {
+    outer[k] = opposite(star.triangles[k], star.center);
+  }
+  std::vector<int> outer_edge(outer.size(), -1);
+  for (std::size_t k = 0; k < outer.size(); ++k)
+    if (outer[k] >= 0) {
+      // Two ring edges can face the same outer triangle, so the edge is found by its vertices.
+      const int a = star.ring[(k + 1) % n];
+      outer_edge[k] = corner_index(outer[k], a);
+    }
+
+  slots.assign(star.triangles.begin(), star.triangles.begin() + triangles.size());
+  std::vector<std::array<int, 4>> open;  // diagonals seen once: from, to, slot, edge
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const int slot = slots[i];
+    for (int k = 0; k < 3; ++k) {
+      const int a = triangles[i][k], b = triangles[i][(k + 1) % 3];
+      corners_[slot][k] = star.ring[a];
+      incident_[star.ring[a]] = slot;
+      if ((a + 1) % n == b && !(star.boundary && b == 0)) {
+        neighbours_[slot][k] = outer[a];
+        if (outer[a] >= 0) neighbours_[outer[a]][outer_edge[a]] = slot;
+        continue;
+      }
+      neighbours_[slot][k] = -1;
+      for (auto& d : open)
+        if (d[0] == b && d[1] == a) {
+          neighbours_[slot][k] = d[2];
+          neighbours_[d[2]][d[3]] = slot;
+        }
+      open.push_back({a, b, slot, k});
+    }
+  }
+  for (std::size_t i = triangles.size(); i < star.triangles.size(); ++i) corners_[star.triangles[i]] = {-1, -1, -1};
+  incident_[star.center] = -1;
+  --component_size_[component_[star.center]];
+  if (star.boundary) --loop_size_[loop_[star.center]];
+}
+
+}  // namespace gsp

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "param/atlas/surface.h"
+
+namespace gsp {
+
+/// The faces around one vertex of the complex, counter-clockwise. Triangle k spans the centre, ring[k] and ring[k+1];
+/// around an interior vertex the ring is a cycle, around a boundary vertex a chain with one triangle fewer.
+struct Star {
+  int center = -1;
+  bool boundary = false;
+  std::vector<int> ring;
+  std::vector<int> triangles;
+
+  int size() const { return static_cast<int>(ring.size()); }
+};
+
+/// Corners of a new triangle as indices into a star's ring, increasing.
+using RingTriangle = std::array<int, 3>;
+
+/// A vertex removal of §3.1 and how its hole is filled.
+struct Removal {
+  int vertex;
+  std::vector<RingTriangle> triangles;
+};
+
+/// The shrinking complex T^i of §3.1: triangles with neighbours over the surface's vertices. Removing a vertex reuses
+/// the slots of its star, so a triangle's index stays valid while it lives.
+class TriangleComplex {
+ public:
+  explicit TriangleComplex(const Surface& surface);
+
+  const Triangle& corners(int triangle) const { return corners_[triangle]; }
+  bool alive(int triangle) const { return corners_[triangle][0] >= 0; }
+  int slot_count() const { return static_cast<int>(corners_.size()); }
+  /// Across the edge from corner k to corner k+1; -1 on a boundary.
+  int neighbour(int triangle, int k) const { return neighbours_[triangle][k]; }
+  /// Index of the vertex in the triangle's corners, -1 if it is none of them.
+  int corner_index(int triangle, int vertex) const;
+  /// Index of the edge of `triangle` behind which `other` lies, -1 if they are no neighbours.
+  int edge_towards(int triangle, int other) const;
+
+  /// The triangle across the edge opposite to a corner; -1 on a boundary.
+  int opposite(int triangle, int vertex) const { return neighbour(triangle, (corner_index(triangle, vertex) + 1) % 3); }
+
+  void gather(int vertex, Star& star) const;
+  bool edge_exists(int a, int b) const;
+  /// Component of the surface the vertex belongs to, and how many vertices of the complex it still has.
+  int component_vertices(int vertex) const { return component_size_[component_[vertex]]; }
+  bool on_boundary(int vertex) const { return loop_[vertex] >= 0; }
+  /// Vertices left on the boundary loop of a boundary vertex.
+  int loop_vertices(int vertex) const { return loop_size_[loop_[vertex]]; }
+
+  /// Puts the triangles in place of the star; `slots` receives the slot of each. Slots that are left over die.
+  void replace(const Star& star, const std::vector<RingTriangle>& triangles, std::vector<int>& slots);
+
+ private:
+  void label_components(const Surface& surface);
+
+  std::vector<Triangle> corners_;
+  std::vector<std::array<int, 3>> neighbours_;
+  std::vector<int> incident_;
+  std::vector<int> component_, component_size_;
+  std::vector<int> loop_, loop_size_;
+};
+
+}  // namespace gsp

@@ -1,0 +1,318 @@
+#include "param/simplify/simplify.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <queue>
+
+#include "mesh/error.h"
+#include "mesh/parallel.h"
+#include "param/removal/removal_cost.h"
+#include "param/removal/vertex_map.h"
+#include "param/simplify/automatic_stop.h"
+
+namespace gsp {
+
+namespace {
+
+struct Entry {
+  double cost;
+  int vertex;
+  int stamp;
+  /// Least cost first, then the smaller vertex, so that the order is a function of the surface alone.
+  bool operator<(const Entry& other) const { return cost != other.cost ? cost > other.cost : vertex > other.vertex; }
+};
+
+constexpr int kRatio = 8;            // most vertices of one level for each of the next
+constexpr int kAutomaticRatio = 16;  // vertices for each of the coarsest level, where the base's size is not known
+constexpr int kSmallestLevel = 1000;
+constexpr int kBatchShare = 64;  // vertices of the complex for each of those that are priced side by side
+constexpr int kBlocks = 8, kLargestBlock = 16;  // of such a batch
+constexpr int kLevelPerBase = 24;               // vertices of the coarsest level for each of the base
+
+int used_vertices(const Surface& surface) {
+  return static_cast<int>(std::count_if(surface.halfedges.outgoing.begin(), surface.halfedges.outgoing.end(),
+                                        [](int h) { return h >= 0; }));
+}
+
+/// A triangle of ring vertices as indices into the ring.
+RingTriangle in_ring(const Star& star, const Triangle& vertices) {
+  RingTriangle t;
+  for (int k = 0; k < 3; ++k)
+    t[k] = static_cast<int>(std::find(star.ring.begin(), star.ring.end(), vertices[k]) - star.ring.begin());
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
+class Simplifier {
+ public:
+  Simplifier(std::shared_ptr<const Surface> surface, const ParameterizeOptions& options, Progress& progress)
+      : surface_(surface),
+        options_(options),
+        progress_(progress),
+        map_(surface, false),
+        start_(used_vertices(*surface)),
+        stop_(start_),
+        remaining_(start_),
+        pricers_(kBlocks, RemovalCost(*surface_, map_.complex(), map_.locations(), map_.points(), options_)) {}
+
+  SimplifyResult run(int coarsest);
+
+ private:
+  /// Numbers of the present level's surface.
+  struct Level {
+    std::shared_ptr<const Surface> surface;
+    std::vector<int> vertex;  ///< per vertex of the finest surface
+    std::vector<int> face;    ///< per triangle of the complex
+  };
+
+  void price_all();
+  void price_next(int vertex);
+  void remove_down_to(int target);
+  bool remove(const Star& star, const Candidate& candidate);
+  bool has_taken_edge(const Star& star, const Candidate& candidate) const;
+  Star of_level(const Star& star) const;
+  bool remove_from_overlay(const Star& star, const std::vector<RingTriangle>& triangles);
+  void end_level();
+
+  std::shared_ptr<const Surface> surface_;
+  const ParameterizeOptions& options_;
+  Progress& progress_;
+  VertexMap map_;
+  const int start_;  ///< vertices of the surface
+  AutomaticStop stop_;
+  int remaining_;
+  bool ended_ = false;  ///< by the automatic stop
+  SimplifyResult result_;
+  Level level_;
+  RemovalRecord decimation_;  ///< of the present level, but for the last one
+
+  std::vector<Candidate> candidates_;  ///< per vertex, as it was last priced
+  std::vector<int> stamp_;
+  std::vector<char> stale_;  ///< its star, or a triangle behind it, has changed since it was priced
+  std::vector<char> queued_;
+  std::priority_queue<Entry> queue_;
+  std::vector<RemovalCost> pricers_;  ///< of the blocks of a batch
+  std::vector<int> batch_;
+  std::vector<Entry> fresh_;
+  std::vector<Triangle> filling_;
+};
+
+void Simplifier::price_all() {
+  const int count = surface_->mesh.vertex_count();
+  candidates_.resize(count);
+  parallel_for(count, 2048, [&](std::size_t begin, std::size_t end) {
+    RemovalCost pricer = pricers_.front();
+    for (std::size_t v = begin; v < end; ++v)
+      if (surface_->halfedges.outgoing[v] >= 0) pricer.price(static_cast<int>(v), candidates_[v]);
+  });
+  stamp_.assign(count, 0);
+  stale_.assign(count, 0);
+  queued_.assign(count, 0);
+  for (int v = 0; v < count; ++v) {
+    if (!candidates_[v].feasible) continue;
+    queue_.push({candidates_[v].parts.omega(), v, 0});
+    queued_[v] = 1;
+  }
+}
+
+/// Whether an edge of the filling has come to join two vertices of the ring elsewhere since it was chosen.
+bool Simplifier::has_taken_edge(const Star& star, const Candidate& candidate) const {
+  return std::any_of(candidate.triangles.begin(), candidate.triangles.end(), [&](const RingTriangle& t) {
+    const bool closing = t[0] == 0 && t[2] == star.size() - 1;  // an edge of the ring, but for a star on a boundary
+    return (!closing || star.boundary) && map_.complex().edge_exists(star.ring[t[0]], star.ring[t[2]]);
+  });
+}
+
+/// Prices a vertex, and with it those that are to be priced next, on all cores. How many depends on the complex alone,
+/// and is small beside it, so that few of them change again before their turn.
+void Simplifier::price_next(int vertex) {
+  batch_.assign(1, vertex);
+  fresh_.clear();
+  const std::size_t most = std::clamp(remaining_ / kBatchShare, 1, kBlocks * kLargestBlock);
+  while (batch_.size() < most && fresh_.size() < most && !queue_.empty()) {
+    const Entry next = queue_.top();
+    queue_.pop();
+    if (next.stamp != stamp_[next.vertex]) continue;
+    if (stale_[next.vertex])
+      batch_.push_back(next.vertex);
+    else
+      fresh_.push_back(next);
+  }
+  for (const Entry& entry : fresh_) queue_.push(entry);
+  const std::size_t block = (batch_.size() + kBlocks - 1) / kBlocks;
+  parallel_for(batch_.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) pricers_[begin / block].price(batch_[i], candidates_[batch_[i]]);
+  });
+  for (int v : batch_) {
+    stale_[v] = 0;
+    queued_[v] = candidates_[v].feasible;
+    ++stamp_[v];
+    if (queued_[v]) queue_.push({candidates_[v].parts.omega(), v, stamp_[v]});
+  }
+}
+
+void Simplifier::remove_down_to(int target) {
+  std::vector<OmegaRecord>& record = result_.omega;
+  Star star;
+  while (!ended_ && remaining_ > target && !queue_.empty()) {
+    const Entry top = queue_.top();
+    queue_.pop();
+    if (top.stamp != stamp_[top.vertex]) continue;
+    Candidate& candidate = candidates_[top.vertex];
+    if (!stale_[top.vertex]) map_.complex().gather(top.vertex, star);
+    if (stale_[top.vertex] || has_taken_edge(star, candidate)) {
+      price_next(top.vertex);
+      continue;
+    }
+    queued_[top.vertex] = 0;  // if it cannot be removed now it waits until its star changes
+    if (!pricers_.front().leaves_surface(star)) continue;
+    candidate.parts.remaining_vertices = remaining_ - 1;
+    if (options_.base_vertices == 0 && stop_.reached(candidate.parts)) {
+      record.push_back(candidate.parts);
+      ended_ = true;
+      return;
+    }
+    if (!remove(star, candidate)) continue;
+    record.push_back(candidate.parts);
+    candidate = {};
+    if (record.size() % 4096 == 0)
+      progress_.report("simplify", double(record.size()) / (start_ - options_.base_vertices));
+  }
+}
+
+/// A star by the numbers of the level's surface.
+Star Simplifier::of_level(const Star& star) const {
+  Star there = star;
+  there.center = level_.vertex[star.center];
+  for (int& v : there.ring) v = level_.vertex[v];
+  for (int& t : there.triangles) t = level_.face[t];
+  return there;
+}
+
+/// The same removal by the overlay's complex, which may start its ring elsewhere.
+bool Simplifier::remove_from_overlay(const Star& star, const std::vector<RingTriangle>& triangles) {
+  Star there;
+  result_.map->complex().gather(level_.vertex[star.center], there);
+  Removal removal{there.center, {}};
+  for (const RingTriangle& t : triangles)
+    removal.triangles.push_back(in_ring(
+        there, {level_.vertex[star.ring[t[0]]], level_.vertex[star.ring[t[1]]], level_.vertex[star.ring[t[2]]]}));
+  return result_.map->remove(removal);
+}
+
+bool Simplifier::remove(const Star& star, const Candidate& candidate) {
+  if (!result_.map)
+    decimation_.add(of_level(star), candidate.triangles);
+  else if (!remove_from_overlay(star, candidate.triangles))
+    return false;
+  const TriangleComplex& complex = map_.complex();
+  for (int t : star.triangles) {
+    const int other = complex.opposite(t, star.center);
+    if (other < 0) continue;
+    for (int v : complex.corners(other)) stale_[v] = 1;
+  }
+  map_.remove({star.center, candidate.triangles});
+  filling_.clear();
+  for (const RingTriangle& t : candidate.triangles)
+    filling_.push_back({star.ring[t[0]], star.ring[t[1]], star.ring[t[2]]});
+  result_.removals.add(star.center, filling_);
+  --remaining_;
+  for (int neighbour : star.ring) {
+    stale_[neighbour] = 1;  // on a boundary the triangles behind do not name all
+    if (queued_[neighbour]) continue;
+    // It could not be removed before; in its new star it may be.
+    queue_.push({0.0, neighbour, ++stamp_[neighbour]});
+    queued_[neighbour] = 1;
+  }
+  return true;
+}
+
+/// The complex becomes the surface of the next level.
+void Simplifier::end_level() {
+  CoarseSurface coarse = coarse_surface(map_);
+  Level next{coarse.surface, std::vector<int>(level_.vertex.size(), -1), std::vector<int>(level_.face.size(), -1)};
+  for (std::size_t v = 0; v < coarse.vertex.size(); ++v) next.vertex[coarse.vertex[v]] = static_cast<int>(v);
+  for (std::size_t f = 0; f < coarse.slot.size(); ++f) next.face[coarse.slot[f]] = static_cast<int>(f);
+  for (int& v : coarse.vertex) v = level_.vertex[v];
+  for (int& t : coarse.slot) t = level_.face[t];
+  decimation_.coarse = std::move(coarse);
+  result_.finer.push_back(std::move(decimation_));
+  level_ = std::move(next);
+  decimation_ = {};
+  decimation_.surface = level_.surface;
+}
+
+SimplifyResult Simplifier::run(int coarsest) {
+  level_.surface = decimation_.surface = surface_;
+  level_.vertex.resize(surface_->mesh.positions.size());
+  level_.face.resize(surface_->mesh.faces.size());
+  std::iota(level_.vertex.begin(), level_.vertex.end(), 0);
+  std::iota(level_.face.begin(), level_.face.end(), 0);
+  price_all();
+  while (!ended_ && remaining_ > coarsest) {
+    const int before = remaining_;
+    remove_down_to(std::max(coarsest, remaining_ / kRatio));
+    if (before == remaining_) break;
+    end_level();
+    if (queue_.empty()) break;
+  }
+  result_.map.emplace(level_.surface);
+  for (RemovalCost& pricer : pricers_) pricer.allow_chords();
+  for (int v = 0; v < static_cast<int>(queued_.size()); ++v)  // what could not be removed before may be now
+    if (!queued_[v] && level_.vertex[v] >= 0 && surface_->halfedges.outgoing[v] >= 0) {
+      queue_.push({0.0, v, ++stamp_[v]});
+      stale_[v] = queued_[v] = 1;
+    }
+  remove_down_to(std::max(options_.base_vertices, 4));
+  return std::move(result_);
+}
+
+}  // namespace
+
+void RemovalScript::add(int vertex, const std::vector<Triangle>& triangles) {
+  vertices_.push_back(vertex);
+  triangles_.insert(triangles_.end(), triangles.begin(), triangles.end());
+  first_.push_back(static_cast<int>(triangles_.size()));
+}
+
+void RemovalScript::place(int removal, const Star& star, Removal& made) const {
+  made.vertex = vertices_[removal];
+  made.triangles.clear();
+  for (int i = first_[removal]; i < first_[removal + 1]; ++i) made.triangles.push_back(in_ring(star, triangles_[i]));
+}
+
+SimplifyResult simplify(std::shared_ptr<const Surface> surface, const ParameterizeOptions& options, int coarsest,
+                        Progress& progress) {
+  return Simplifier(std::move(surface), options, progress).run(coarsest);
+}
+
+int coarsest_level(const Surface& surface, const ParameterizeOptions& options) {
+  const int count = used_vertices(surface);
+  const int wanted = options.base_vertices > 0 ? kLevelPerBase * options.base_vertices : count / kAutomaticRatio;
+  const int level = std::max(kSmallestLevel, wanted);
+  return 2 * level > count ? count : level;
+}
+
+std::vector<int> remaining_vertices(const Surface& surface, const RemovalScript& removals) {
+  std::vector<char> removed(surface.mesh.positions.size(), 0);
+  for (int i = 0; i < removals.size(); ++i) removed[removals.vertex(i)] = 1;
+  std::vector<int> remaining;
+  for (std::size_t v = 0; v < removed.size(); ++v)
+    if (!removed[v] && surface.halfedges.outgoing[v] >= 0) remaining.push_back(static_cast<int>(v));
+  return remaining;
+}
+
+Atlas maps_of(const SimplifyResult& simplified) {
+  VertexMap map((simplified.finer.empty() ? simplified.map->surface() : simplified.finer.front().surface), true);
+  Star star;
+  Removal removal;
+  for (int i = 0; i < simplified.removals.size(); ++i) {
+    map.complex().gather(simplified.removals.vertex(i), star);
+    simplified.removals.place(i, star, removal);
+    map.remove(removal);
+  }
+  return map.atlas();
+}
+
+}  // namespace gsp

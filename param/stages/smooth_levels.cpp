@@ -1,0 +1,89 @@
+#include "param/stages/smooth_levels.h"
+
+#include "param/atlas/best_map.h"
+#include "param/corners/choose_base_flips.h"
+#include "param/corners/descend_corners.h"
+#include "param/corners/relax_corners.h"
+#include "param/energy/lower_distortion.h"
+#include "param/linear/weights.h"
+#include "param/reinsert/reinsertion.h"
+
+namespace gsp {
+
+namespace {
+
+constexpr double kRoughly = 2e-3,
+                 kFinely = 1e-4;  // gain of a step that ends lowering the distortion, between and after relaxations
+constexpr int kSweeps = 1;
+constexpr int kWhole = 20000;  // vertices up to which the whole map is smoothed at once, after each relaxation too
+
+int relax_or_descend(Atlas& atlas, const ParameterizeOptions& options) {
+  if (options.corners == Corners::Gradient)
+    return descend_corners(atlas, Objective::Distortion, kRelaxationRadius, Folding::Refused);
+  return relax_corners(atlas, LinearWeights(*atlas.surface, options.weights), kRelaxationRadius, Folding::Refused);
+}
+
+/// The whole map at once.
+SmoothingRecord smooth_coarsest(EditableAtlas& map, const ParameterizeOptions& options, bool finest,
+                                Progress& progress) {
+  const bool large = map.atlas.surface->mesh.vertex_count() > kWhole;
+  if (large) lower_distortion_locally(map.atlas, kSweeps, progress);
+  lower_distortion(map.atlas, kRoughly, progress);
+  // Where the map has become smooth it needs fewer added vertices.
+  map = coarsen(std::move(map));
+  map.atlas.reassign_all();
+  const auto lower_again = [&] {
+    if (large)  // what corners and base edges have changed is local
+      lower_distortion_locally(map.atlas, kSweeps, progress);
+    else
+      lower_distortion(map.atlas, kRoughly, progress);
+  };
+  int flipped = 0;
+  const auto flip = [&] {
+    const int more = options.base_edges == BaseEdges::Flip ? flip_base_edges(map.atlas, progress) : 0;
+    if (more > 0) lower_again();
+    flipped += more;
+  };
+  flip();
+  BestMap best;
+  best.offer(map.atlas, 0);
+  std::vector<int> flipped_by{flipped};
+  for (int round = 1; round <= options.relaxations; ++round) {
+    if (relax_or_descend(map.atlas, options) == 0) break;
+    lower_again();
+    flip();
+    best.offer(map.atlas, round);
+    flipped_by.push_back(flipped);
+  }
+  map.atlas = best.atlas();
+  lower_distortion(map.atlas, finest ? kFinely : kRoughly, progress);
+  return {best.round(), flipped_by[best.round()]};
+}
+
+/// A map that a coarser level has made smooth on the large.
+void smooth_finer(EditableAtlas& map, const ParameterizeOptions& options, Progress& progress) {
+  map.atlas.reassign_all();
+  if (options.relaxations > 0) relax_or_descend(map.atlas, options);
+  lower_distortion_locally(map.atlas, kSweeps, progress);
+  map = coarsen(std::move(map));
+  map.atlas.reassign_all();
+}
+
+}  // namespace
+
+std::optional<SmoothedMap> smooth_levels(SimplifyResult simplified, const ParameterizeOptions& options,
+                                         Progress& progress) {
+  EditableAtlas map = std::move(*simplified.map).coarsened();
+  map.atlas.reassign_all();
+  std::vector<RemovalRecord>& finer = simplified.finer;
+  const SmoothingRecord record = smooth_coarsest(map, options, finer.empty(), progress);
+  for (; !finer.empty(); finer.pop_back()) {
+    std::optional<EditableAtlas> more = reinsert(finer.back(), map);
+    if (!more) return std::nullopt;
+    map = std::move(*more);
+    smooth_finer(map, options, progress);
+  }
+  return SmoothedMap{std::move(map.atlas), record};
+}
+
+}  // namespace gsp
