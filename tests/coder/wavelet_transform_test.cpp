@@ -3,9 +3,10 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
-#include "coder/butterfly_filters.h"
 #include "coder/codec.h"
-#include "coder/loop_filters.h"
+#include "coder/loop_high_pass.h"
+#include "remesh/filters/butterfly_low_pass.h"
+#include "remesh/filters/loop_low_pass.h"
 #include "tests/coder/sample_meshes.h"
 
 using namespace gsp;

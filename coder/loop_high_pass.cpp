@@ -1,53 +1,11 @@
-#include "coder/loop_filters.h"
+#include "coder/loop_high_pass.h"
 
 #include <array>
-#include <cmath>
 #include <vector>
 
 namespace gsp {
 
 namespace {
-
-/// Weight that a vertex of the given valence keeps.
-double kept_weight(int valence) {
-  const double c = 3.0 / 8.0 + std::cos(2.0 * M_PI / valence) / 4.0;
-  return 3.0 / 8.0 + c * c;
-}
-
-class LoopLowPass : public TapFilter<LoopLowPass> {
- public:
-  explicit LoopLowPass(const SubdivisionLevel& coarse) : TapFilter(coarse), fans_(vertex_fans(coarse)) {
-    kept_.reserve(fans_.size());
-    for (const VertexFan& fan : fans_) {
-      const bool inside = fan.boundary_count == 0 && fan.valence > 0;
-      kept_.push_back(fan.regular() ? 0.625 : inside ? kept_weight(fan.valence) : fan.boundary_count == 2 ? 0.75 : 1.0);
-    }
-  }
-
-  template <class Take>
-  void for_each_tap(Take take) const {
-    for (int v = 0; v < level_.vertex_count; ++v) take(v, v, kept_[v]);
-    for (int e = 0; e < level_.edge_count(); ++e) edge_taps(e, take);
-  }
-
- private:
-  template <class Take>
-  void edge_taps(int e, Take take) const {
-    const auto [a, b] = level_.edges[e];
-    const auto [left, right] = level_.edge_faces[e];
-    const bool boundary = right < 0;
-    for (const auto& [v, other] : {std::pair{a, b}, std::pair{b, a}}) {
-      if (fans_[v].boundary_count == 0) take(v, other, (1.0 - kept_[v]) / fans_[v].valence);
-      if (fans_[v].boundary_count == 2 && boundary) take(v, other, 0.125);
-    }
-    for (int v : {a, b}) take(odd(e), v, boundary ? 0.5 : 0.375);
-    if (boundary) return;
-    for (int face : {left, right}) take(odd(e), level_.opposite_vertex(face, e), 0.125);
-  }
-
-  std::vector<VertexFan> fans_;
-  std::vector<double> kept_;
-};
 
 class HighPass : public TapFilter<HighPass> {
  public:
@@ -200,8 +158,6 @@ class HighPass : public TapFilter<HighPass> {
 };
 
 }  // namespace
-
-std::unique_ptr<Filter> loop_low_pass(const SubdivisionLevel& coarse) { return std::make_unique<LoopLowPass>(coarse); }
 
 std::unique_ptr<Filter> loop_high_pass(const SubdivisionLevel& coarse, bool mirror_symmetric) {
   return std::make_unique<HighPass>(coarse, mirror_symmetric);

@@ -2,13 +2,9 @@
 
 #include <memory>
 
-#include "coder/filter.h"
+#include "remesh/filters/filter.h"
 
 namespace gsp {
-
-/// Loop subdivision, from the vertices of a level to those of the next: smooth rules inside, the cubic spline's on
-/// boundaries, vertices with other than two boundary edges fixed (algorithms.md §5; Loop 1987, Hoppe et al. 1994).
-std::unique_ptr<Filter> loop_low_pass(const SubdivisionLevel& coarse);
 
 /// The quadrature-mirror high-pass of the progressive geometry coder (Khodakovsky, Schröder, Sweldens 2000), from the
 /// edges of the coarse level, centred on the vertices that they insert. Loop's mask with signs alternating, 19 taps on

@@ -1,7 +1,9 @@
-#include "coder/butterfly_filters.h"
+#include "remesh/filters/butterfly_low_pass.h"
 
-#include <cmath>
+#include <utility>
 #include <vector>
+
+#include "remesh/filters/cosine.h"
 
 namespace gsp {
 
@@ -78,8 +80,7 @@ class ButterflyLowPass : public TapFilter<ButterflyLowPass> {
   static double neighbour_weight(int k, int j) {
     if (k == 3) return j == 0 ? 5.0 / 12 : -1.0 / 12;
     if (k == 4) return j == 0 ? 3.0 / 8 : j == 2 ? -1.0 / 8 : 0.0;
-    const double angle = 2.0 * M_PI * j / k;
-    return (0.25 + std::cos(angle) + 0.5 * std::cos(2.0 * angle)) / k;
+    return (0.25 + cosine_of_turn(j, k) + 0.5 * cosine_of_turn(2 * j % k, k)) / k;
   }
 
   template <class Take>
@@ -102,29 +103,10 @@ class ButterflyLowPass : public TapFilter<ButterflyLowPass> {
   std::vector<std::vector<double>> weights_;  ///< of the neighbours of an irregular vertex, by its valence
 };
 
-class Update : public TapFilter<Update> {
- public:
-  explicit Update(const SubdivisionLevel& coarse) : TapFilter(coarse), faces_(coarse.vertex_count, 0) {
-    for (const Triangle& t : coarse.faces)
-      for (int v : t) ++faces_[v];
-  }
-  template <class Take>
-  void for_each_tap(Take take) const {
-    for (int e = 0; e < level_.edge_count(); ++e) {
-      const int around = level_.edge_faces[e][1] < 0 ? 3 : 6;
-      for (int v : level_.edges[e]) take(v, e, around / (8.0 * faces_[v]));
-    }
-  }
-
- private:
-  std::vector<int> faces_;
-};
-
 }  // namespace
 
 std::unique_ptr<Filter> butterfly_low_pass(const SubdivisionLevel& coarse) {
   return std::make_unique<ButterflyLowPass>(coarse);
 }
-std::unique_ptr<Filter> butterfly_update(const SubdivisionLevel& coarse) { return std::make_unique<Update>(coarse); }
 
 }  // namespace gsp
