@@ -15,7 +15,6 @@ namespace {
 
 struct RemeshArguments {
   std::string map, output;
-  std::string kind = "parametric";
   RemeshOptions remesh;
   double max_error = 0.0;
 };
@@ -24,10 +23,11 @@ int run_remesh(const RemeshArguments& options, Context& context) {
   Progress progress = context.console.progress();
   const Parameterization map = read_parameterization(options.map);
   const SemiregularMesh result = options.max_error > 0.0
-                                     ? remesh_to_error(map, options.max_error, options.remesh.positions, progress)
+                                     ? remesh_to_error(map, options.max_error, options.remesh, progress)
                                      : remesh(map, options.remesh, progress);
   write_semiregular(options.output, result, provenance_of(options.remesh));
   print_report(context, {{"level", result.level},
+                         {"kind", remesh_kind_name(options.remesh.kind)},
                          {"positions", positions_name(options.remesh.positions)},
                          {"vertices", result.positions.size()},
                          {"faces", result.base_faces.size() << (2 * result.level)},
@@ -49,7 +49,6 @@ void add_remesh(CLI::App& app, Context& context) {
       "--max-error", options->max_error, 0.0, 1.0,
       "instead of a level: the first whose RMS distance over the diagonal is at most X; 0 leaves it to --level");
   command.exclude("--max-error", "--level");
-  command.choice("--kind", options->kind, {"parametric"}, "where the samples lie");
   command.on_run([options, &context] { return run_remesh(*options, context); });
 }
 

@@ -245,24 +245,12 @@ class Remesher {
 
 }  // namespace
 
-const char* positions_name(Positions positions) {
-  switch (positions) {
-    case Positions::Sampled:
-      return "sampled";
-    case Positions::Closest:
-      return "closest";
-    default:
-      return "fitted";
-  }
-}
-
-std::vector<std::string> provenance_of(const RemeshOptions& options) {
-  return {std::string("positions ") + positions_name(options.positions)};
-}
-
 SemiregularMesh remesh(const Parameterization& map, const RemeshOptions& options, Progress& progress) {
   require_well_formed(map);
   if (map.base.faces.empty()) throw Error(Cause::InvalidMap, "a map without base faces has nothing to remesh");
+  if (options.kind != RemeshKind::Parametric)
+    throw Error(Cause::BadOption, std::string("remeshes of kind ") + remesh_kind_name(options.kind) +
+                                      " are not built yet; parametric ones are");
   const int level = chosen_level(map, options);
   progress.report("remesh", 0.0);
   const std::vector<std::vector<FacePiece>> pieces = pieces_by_chart(map);

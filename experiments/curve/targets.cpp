@@ -15,7 +15,7 @@ constexpr DistanceOptions kRuler{.samples = 200000, .seed = 1};
 
 }  // namespace
 
-SemiregularMesh remesh_to_error(const Parameterization& map, double max_error, Positions positions,
+SemiregularMesh remesh_to_error(const Parameterization& map, double max_error, RemeshOptions options,
                                 Progress& progress) {
   if (!(max_error > 0.0)) throw Error(Cause::BadOption, "the largest error must be positive");
   constexpr long long kMostFaces = 64'000'000;
@@ -25,7 +25,8 @@ SemiregularMesh remesh_to_error(const Parameterization& map, double max_error, P
   double error = 0.0;
   long long faces = map.base.face_count();
   for (int level = 0; level <= kMostLevels && faces <= kMostFaces; ++level, faces *= 4) {
-    SemiregularMesh result = remesh(map, {.level = level, .positions = positions}, progress);
+    options.level = level;
+    SemiregularMesh result = remesh(map, options, progress);
     const SurfaceDistance distance = surface_distance(map.surface, tree, result.mesh(), kRuler, silent);
     error = distance.rms() / distance.diagonal;
     progress.note(fmt::format("level {}: error {:.3g} of the diagonal", level, error));

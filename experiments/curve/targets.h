@@ -9,10 +9,11 @@
 
 namespace gsp {
 
-/// Remesh at the first level whose RMS distance to the surface (larger of both directions, over the surface's
-/// bounding-box diagonal) is at most `max_error`. Throws Error(BadOption) where `max_error` is not positive or not
-/// reached at the finest level of at most 64 million faces, and what `remesh` throws.
-SemiregularMesh remesh_to_error(const Parameterization& map, double max_error, Positions positions, Progress& progress);
+/// Remesh by `options`, but at the first level whose RMS distance to the surface (larger of both directions, over the
+/// surface's bounding-box diagonal) is at most `max_error`. Throws Error(BadOption) where `max_error` is not positive
+/// or not reached at the finest level of at most 64 million faces, and what `remesh` throws.
+SemiregularMesh remesh_to_error(const Parameterization& map, double max_error, RemeshOptions options,
+                                Progress& progress);
 
 /// Shortest prefix (to 1%) of the stream whose decoded surface is at least `psnr_db` from `original`, the mesh that was
 /// encoded. The whole stream where none is. Throws what `decode` throws.

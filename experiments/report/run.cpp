@@ -37,6 +37,9 @@ StoredCell first_of(const CurvePoint& point, const fs::path& folder) {
   const std::string positions = further_option(point.options, "positions");
   for (Positions p : kPositions)
     if (positions == positions_name(p)) cell.options.remesh.positions = p;
+  const std::string kind = further_option(point.options, "kind");
+  for (RemeshKind k : kRemeshKinds)
+    if (kind == remesh_kind_name(k)) cell.options.remesh.kind = k;
   if (point.coder == coder_name(StreamMode::Fixed)) cell.options.mode = StreamMode::Fixed;
   cell.status = CellStatus::Done;
   if (point.remesh_error > 0.0) {

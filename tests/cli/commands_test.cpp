@@ -139,7 +139,9 @@ TEST_CASE("the chain of commands: surface, map, remesh, stream, prefix, distance
     CHECK(json::parse(ran.out)["faces"] == 76 * 256);
     CHECK(json::parse(ran.out)["positions"] == positions);
     // Comments are at the head of the file.
-    CHECK(read_file(remeshed).substr(0, 400).find("comment positions " + positions + "\n") != std::string::npos);
+    const std::string head = read_file(remeshed).substr(0, 400);
+    CHECK(head.find("comment positions " + positions + "\n") != std::string::npos);
+    CHECK(head.find("comment kind parametric\n") != std::string::npos);
     const Ran distance = gsp_run({"distance", mesh, remeshed, "--samples", "20000", "--json"});
     REQUIRE(distance.status == 0);
     return json::parse(distance.out)["rms"].get<double>();

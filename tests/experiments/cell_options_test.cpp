@@ -17,12 +17,14 @@ TEST_CASE("every axis takes its own default and survives the way through JSON") 
   }
   options.parameterize.gamma = 0.25;
   options.parameterize.base_vertices = 150;
+  options.remesh.kind = RemeshKind::VariationalNormal;
   options.encode.wavelet = Wavelet::Butterfly;
   options.budgets = {1000, 2000};
   const std::string text = options_json(options);
   const CellOptions back = options_from_json(text);
   CHECK(options_json(back) == text);
   CHECK(back.budgets == options.budgets);
+  CHECK(back.remesh.kind == RemeshKind::VariationalNormal);
   CHECK(back.parameterize.gamma == 0.25);
 }
 
@@ -54,6 +56,11 @@ TEST_CASE("options that change nothing for a method do not make cells differ") {
   CHECK(options_json(normalized(draco)) == options_json(of_method("draco")));
   CHECK(options_json(normalized(gsp)) != options_json(of_method("gsp")));
   CHECK(options_json(draco, StageKind::Parameterize) == "{}");
+  // A cached remesh is another one where its kind is.
+  CellOptions normal = of_method("gsp");
+  normal.remesh.kind = RemeshKind::Normal;
+  CHECK(options_json(normal, StageKind::Remesh) != options_json(of_method("gsp"), StageKind::Remesh));
+  CHECK(options_json(normal, StageKind::Parameterize) == options_json(of_method("gsp"), StageKind::Parameterize));
 }
 
 TEST_CASE("further options are read back from their text") {

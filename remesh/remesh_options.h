@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gsp {
+
+/// What the vertices of a remesh are.
+enum class Positions {
+  Sampled,  ///< the surface's points at the dyadic points of the domain, as in the paper
+  Fitted,   ///< where the faces are near the surface while the vertices keep, among each other, the map's places:
+            ///< projected on the map's inverse (fit_positions.h), then moved towards the closest points
+            ///< (closest_fit.h). Nearer at equal bytes
+  Closest,  ///< the same with little to hold the vertices: nearest, but the vertices' places along the surface cost
+            ///< bytes
+};
+inline constexpr Positions kPositions[] = {Positions::Fitted, Positions::Sampled, Positions::Closest};
+/// fitted, sampled, closest.
+const char* positions_name(Positions positions);
+
+/// How the vertices above the base are given, and so what a code of them is made of.
+enum class RemeshKind {
+  Parametric,         ///< three numbers a vertex: where the map has it (paper §4)
+  Normal,             ///< one, but for marked exceptions: along the normal of what the coarser level predicts (Guskov,
+                      ///< Vidimče, Sweldens, Schröder 2000)
+  VariationalNormal,  ///< the same at a small error in place of exceptions (Friedel, Schröder, Khodakovsky 2004)
+  Displaced,          ///< one: along the normals of a smooth control surface (Lee, Moreton, Hoppe 2000)
+};
+inline constexpr RemeshKind kRemeshKinds[] = {RemeshKind::Parametric, RemeshKind::Normal, RemeshKind::VariationalNormal,
+                                              RemeshKind::Displaced};
+/// parametric, normal, variational-normal, displaced.
+const char* remesh_kind_name(RemeshKind kind);
+
+struct RemeshOptions {
+  /// Quadrisections of the base, 0..kMaxSubdivisionLevel, or kAutoLevel: the first level with at least as many faces as
+  /// the surface, or the deepest one.
+  int level = kAutoLevel;
+  static constexpr int kAutoLevel = 99;
+  Positions positions = Positions::Fitted;
+  RemeshKind kind = RemeshKind::Parametric;
+};
+
+/// What a remesh's file says of how its vertices were made, for `write_semiregular`: "kind parametric", "positions
+/// fitted".
+std::vector<std::string> provenance_of(const RemeshOptions& options);
+
+}  // namespace gsp
