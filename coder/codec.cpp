@@ -18,6 +18,7 @@
 #include "coder/quantizer.h"
 #include "coder/rate_distortion.h"
 #include "coder/wavelet_transform.h"
+#include "mesh/words.h"
 
 namespace gsp {
 
@@ -214,11 +215,7 @@ const char* wavelet_name(Wavelet wavelet) {
   return "unknown";
 }
 
-Wavelet wavelet_of(const std::string& name) {
-  for (Wavelet wavelet : kWavelets)
-    if (name == wavelet_name(wavelet)) return wavelet;
-  throw Error(Cause::BadOption, "there is no wavelet '" + name + "'");
-}
+Wavelet wavelet_of(const std::string& name) { return value_of(kWavelets, wavelet_name, name, "wavelet"); }
 
 Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress& progress, StreamParts* parts) {
   const Source source(mesh, options, progress);

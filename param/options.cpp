@@ -1,5 +1,7 @@
 #include "param/options.h"
 
+#include "mesh/words.h"
+
 namespace gsp {
 
 ParameterizeOptions paper_options() {
@@ -40,6 +42,18 @@ const char* method_name(Method method) {
       return "hybrid";
   }
   return "unknown";
+}
+
+Method method_of(const std::string& word) { return value_of(kMethods, method_name, word, "method"); }
+
+Objective objective_of(const std::string& word) { return value_of(kObjectives, objective_name, word, "objective"); }
+
+Weights weights_of(const std::string& word) { return value_of(kWeights, weights_name, word, "weights"); }
+
+Corners corners_of(const std::string& word) { return value_of(kCorners, corners_name, word, "way of corners"); }
+
+BaseEdges base_edges_of(const std::string& word) {
+  return value_of(kBaseEdges, base_edges_name, word, "way of base edges");
 }
 
 }  // namespace gsp

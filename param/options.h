@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace gsp {
 
 /// How the map over the base complex is made.
@@ -9,9 +11,12 @@ enum class Method {
   MapsSmoothed,  ///< the same, smoothed by Loop subdivision on the parameters (the paper's figure 1a)
   Hybrid         ///< the same, each pair of adjacent patches relaxed with its boundary held, several times (figure 1c)
 };
+inline constexpr Method kMethods[] = {Method::Gsp, Method::Maps, Method::MapsSmoothed, Method::Hybrid};
 
 /// "gsp", "maps", "maps-smoothed", "hybrid".
 const char* method_name(Method method);
+/// The inverse. Throws Error(BadOption).
+Method method_of(const std::string& word);
 
 /// What the smooth map of Method::Gsp minimises.
 enum class Objective {
@@ -19,9 +24,12 @@ enum class Objective {
                ///< rate
   Linear       ///< the paper's global linear system (§3.2.1), repaired where it folds
 };
+inline constexpr Objective kObjectives[] = {Objective::Distortion, Objective::Linear};
 
 /// "distortion", "linear".
 const char* objective_name(Objective objective);
+/// The inverse. Throws Error(BadOption).
+Objective objective_of(const std::string& word);
 
 /// Of the linear systems: the global one of Objective::Linear, and those on the discs of the corner relaxation.
 enum class Weights {
@@ -29,27 +37,36 @@ enum class Weights {
   Cotangent,  ///< on the intrinsic Delaunay triangulation: the map of least Dirichlet energy
   Uniform     ///< 1: knows the connectivity alone
 };
+inline constexpr Weights kWeights[] = {Weights::MeanValue, Weights::Cotangent, Weights::Uniform};
 
 /// "mean-value", "cotangent", "uniform".
 const char* weights_name(Weights weights);
+/// The inverse. Throws Error(BadOption).
+Weights weights_of(const std::string& word);
 
 /// How the patch corners find their places.
 enum class Corners {
   Relax,    ///< the paper's relaxation on discs (§3.2.2)
   Gradient  ///< down the gradient of what the map minimises, from vertex to vertex
 };
+inline constexpr Corners kCorners[] = {Corners::Relax, Corners::Gradient};
 
 /// "relax", "gradient".
 const char* corners_name(Corners corners);
+/// The inverse. Throws Error(BadOption).
+Corners corners_of(const std::string& word);
 
 /// Whether the base keeps the edges that the simplification left.
 enum class BaseEdges {
   Flip,  ///< where that lowers the distortion; with Objective::Distortion alone
   Keep   ///< the paper's
 };
+inline constexpr BaseEdges kBaseEdges[] = {BaseEdges::Flip, BaseEdges::Keep};
 
 /// "flip", "keep".
 const char* base_edges_name(BaseEdges base_edges);
+/// The inverse. Throws Error(BadOption).
+BaseEdges base_edges_of(const std::string& word);
 
 struct ParameterizeOptions {
   Method method = Method::Gsp;

@@ -1,5 +1,7 @@
 #include "remesh/remesh_options.h"
 
+#include "mesh/words.h"
+
 namespace gsp {
 
 const char* positions_name(Positions positions) {
@@ -25,6 +27,10 @@ const char* remesh_kind_name(RemeshKind kind) {
       return "parametric";
   }
 }
+
+Positions positions_of(const std::string& word) { return value_of(kPositions, positions_name, word, "positions"); }
+
+RemeshKind remesh_kind_of(const std::string& word) { return value_of(kRemeshKinds, remesh_kind_name, word, "kind"); }
 
 std::vector<std::string> provenance_of(const RemeshOptions& options) {
   return {std::string("kind ") + remesh_kind_name(options.kind),

@@ -17,6 +17,8 @@ enum class Positions {
 inline constexpr Positions kPositions[] = {Positions::Fitted, Positions::Sampled, Positions::Closest};
 /// fitted, sampled, closest.
 const char* positions_name(Positions positions);
+/// The inverse. Throws Error(BadOption).
+Positions positions_of(const std::string& word);
 
 /// How the vertices above the base are given, and so what a code of them is made of.
 enum class RemeshKind {
@@ -30,6 +32,8 @@ inline constexpr RemeshKind kRemeshKinds[] = {RemeshKind::Parametric, RemeshKind
                                               RemeshKind::Displaced};
 /// parametric, normal, variational-normal, displaced.
 const char* remesh_kind_name(RemeshKind kind);
+/// The inverse. Throws Error(BadOption).
+RemeshKind remesh_kind_of(const std::string& word);
 
 struct RemeshOptions {
   /// Quadrisections of the base, 0..kMaxSubdivisionLevel, or kAutoLevel: the first level with at least as many faces as

@@ -8,22 +8,21 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "mesh/words.h"
+
 namespace gsp {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 using Kind = Axis::Kind;
+using Scope = Axis::Scope;
 
 constexpr const char* kAuto = "auto";
-constexpr Method kMethods[] = {Method::Gsp, Method::Maps, Method::MapsSmoothed, Method::Hybrid};
-constexpr Objective kObjectives[] = {Objective::Distortion, Objective::Linear};
-constexpr Weights kWeights[] = {Weights::MeanValue, Weights::Cotangent, Weights::Uniform};
-constexpr Corners kCorners[] = {Corners::Relax, Corners::Gradient};
-constexpr StreamMode kStreamModes[] = {StreamMode::Embedded, StreamMode::Fixed};
-constexpr BaseEdges kBaseEdges[] = {BaseEdges::Flip, BaseEdges::Keep};
 constexpr double kMostWeight = 1e6;
 constexpr int kMostRelaxations = 1000;
+// Values of Axis::has_column.
+constexpr bool kColumn = true;
 constexpr double kMostInt = std::numeric_limits<int>::max();
 
 std::int64_t integer(const AxisValue& value) { return std::get<std::int64_t>(value); }
@@ -38,19 +37,6 @@ int integer_or_auto(const AxisValue& value, int automatic) {
   return std::holds_alternative<std::string>(value) ? automatic : static_cast<int>(integer(value));
 }
 
-/// The names of the values of an enumeration, and the value of a name.
-template <class Values, class Name>
-std::vector<std::string> words_of(const Values& values, Name name) {
-  std::vector<std::string> words;
-  for (auto value : values) words.emplace_back(name(value));
-  return words;
-}
-
-template <class Values, class Name>
-auto value_of(const Values& values, Name name, const AxisValue& given) {
-  return *std::find_if(std::begin(values), std::end(values), [&](auto value) { return word(given) == name(value); });
-}
-
 using Options = CellOptions;
 using Value = AxisValue;
 
@@ -58,7 +44,7 @@ std::vector<Axis> map_axes() {
   constexpr StageKind kStage = StageKind::Parameterize;
   return {
       {"method", kStage, Kind::Word, 0, 0, method_words(), [](const Options& o) { return Value(o.method); },
-       [](Options& o, const Value& v) { o.method = word(v); }},
+       [](Options& o, const Value& v) { o.method = word(v); }, Scope::Every, kColumn},
       {"gamma",
        kStage,
        Kind::Number,
@@ -66,7 +52,9 @@ std::vector<Axis> map_axes() {
        kMostWeight,
        {},
        [](const Options& o) { return Value(o.parameterize.gamma); },
-       [](Options& o, const Value& v) { o.parameterize.gamma = number(v); }},
+       [](Options& o, const Value& v) { o.parameterize.gamma = number(v); },
+       Scope::Maps,
+       kColumn},
       {"mu",
        kStage,
        Kind::Number,
@@ -74,7 +62,9 @@ std::vector<Axis> map_axes() {
        kMostWeight,
        {},
        [](const Options& o) { return Value(o.parameterize.mu); },
-       [](Options& o, const Value& v) { o.parameterize.mu = number(v); }},
+       [](Options& o, const Value& v) { o.parameterize.mu = number(v); },
+       Scope::Maps,
+       kColumn},
       {"base_vertices",
        kStage,
        Kind::Integer,
@@ -82,19 +72,21 @@ std::vector<Axis> map_axes() {
        kMostInt,
        {kAuto},
        [](const Options& o) { return integer_or_auto(o.parameterize.base_vertices, 0); },
-       [](Options& o, const Value& v) { o.parameterize.base_vertices = integer_or_auto(v, 0); }},
+       [](Options& o, const Value& v) { o.parameterize.base_vertices = integer_or_auto(v, 0); },
+       Scope::Maps,
+       kColumn},
       {"objective", kStage, Kind::Word, 0, 0, words_of(kObjectives, objective_name),
        [](const Options& o) { return Value(objective_name(o.parameterize.objective)); },
-       [](Options& o, const Value& v) { o.parameterize.objective = value_of(kObjectives, objective_name, v); }},
+       [](Options& o, const Value& v) { o.parameterize.objective = objective_of(word(v)); }, Scope::Gsp},
       {"weights", kStage, Kind::Word, 0, 0, words_of(kWeights, weights_name),
        [](const Options& o) { return Value(weights_name(o.parameterize.weights)); },
-       [](Options& o, const Value& v) { o.parameterize.weights = value_of(kWeights, weights_name, v); }},
+       [](Options& o, const Value& v) { o.parameterize.weights = weights_of(word(v)); }, Scope::GspAndHybrid},
       {"corners", kStage, Kind::Word, 0, 0, words_of(kCorners, corners_name),
        [](const Options& o) { return Value(corners_name(o.parameterize.corners)); },
-       [](Options& o, const Value& v) { o.parameterize.corners = value_of(kCorners, corners_name, v); }},
+       [](Options& o, const Value& v) { o.parameterize.corners = corners_of(word(v)); }, Scope::Gsp},
       {"base_edges", kStage, Kind::Word, 0, 0, words_of(kBaseEdges, base_edges_name),
        [](const Options& o) { return Value(base_edges_name(o.parameterize.base_edges)); },
-       [](Options& o, const Value& v) { o.parameterize.base_edges = value_of(kBaseEdges, base_edges_name, v); }},
+       [](Options& o, const Value& v) { o.parameterize.base_edges = base_edges_of(word(v)); }, Scope::Gsp},
       {"relaxations",
        kStage,
        Kind::Integer,
@@ -102,7 +94,8 @@ std::vector<Axis> map_axes() {
        kMostRelaxations,
        {},
        [](const Options& o) { return Value(std::int64_t{o.parameterize.relaxations}); },
-       [](Options& o, const Value& v) { o.parameterize.relaxations = static_cast<int>(integer(v)); }},
+       [](Options& o, const Value& v) { o.parameterize.relaxations = static_cast<int>(integer(v)); },
+       Scope::Gsp},
   };
 }
 
@@ -115,16 +108,18 @@ std::vector<Axis> code_axes() {
        kMaxSubdivisionLevel,
        {kAuto},
        [](const Options& o) { return integer_or_auto(o.remesh.level, RemeshOptions::kAutoLevel); },
-       [](Options& o, const Value& v) { o.remesh.level = integer_or_auto(v, RemeshOptions::kAutoLevel); }},
+       [](Options& o, const Value& v) { o.remesh.level = integer_or_auto(v, RemeshOptions::kAutoLevel); },
+       Scope::Maps,
+       kColumn},
       {"kind", StageKind::Remesh, Kind::Word, 0, 0, words_of(kRemeshKinds, remesh_kind_name),
        [](const Options& o) { return Value(remesh_kind_name(o.remesh.kind)); },
-       [](Options& o, const Value& v) { o.remesh.kind = value_of(kRemeshKinds, remesh_kind_name, v); }},
+       [](Options& o, const Value& v) { o.remesh.kind = remesh_kind_of(word(v)); }},
       {"positions", StageKind::Remesh, Kind::Word, 0, 0, words_of(kPositions, positions_name),
        [](const Options& o) { return Value(positions_name(o.remesh.positions)); },
-       [](Options& o, const Value& v) { o.remesh.positions = value_of(kPositions, positions_name, v); }},
+       [](Options& o, const Value& v) { o.remesh.positions = positions_of(word(v)); }},
       {"wavelet", StageKind::Encode, Kind::Word, 0, 0, words_of(kWavelets, wavelet_name),
        [](const Options& o) { return Value(wavelet_name(o.encode.wavelet)); },
-       [](Options& o, const Value& v) { o.encode.wavelet = wavelet_of(word(v)); }},
+       [](Options& o, const Value& v) { o.encode.wavelet = wavelet_of(word(v)); }, Scope::Maps, kColumn},
       {"precision_bits",
        StageKind::Encode,
        Kind::Integer,
@@ -143,7 +138,7 @@ std::vector<Axis> code_axes() {
        [](Options& o, const Value& v) { o.encode.tangential_ratio = static_cast<int>(integer(v)); }},
       {"mode", StageKind::Measure, Kind::Word, 0, 0, words_of(kStreamModes, stream_mode_name),
        [](const Options& o) { return Value(stream_mode_name(o.mode)); },
-       [](Options& o, const Value& v) { o.mode = stream_mode_of(word(v)); }},
+       [](Options& o, const Value& v) { o.mode = stream_mode_of(word(v)); }, Scope::Maps, kColumn},
       {"samples",
        StageKind::Remesh,
        Kind::Integer,
@@ -151,7 +146,9 @@ std::vector<Axis> code_axes() {
        1e9,
        {},
        [](const Options& o) { return Value(static_cast<std::int64_t>(o.samples)); },
-       [](Options& o, const Value& v) { o.samples = static_cast<std::size_t>(integer(v)); }},
+       [](Options& o, const Value& v) { o.samples = static_cast<std::size_t>(integer(v)); },
+       Scope::Every,
+       kColumn},
       {"seed",
        StageKind::Remesh,
        Kind::Integer,
@@ -159,7 +156,9 @@ std::vector<Axis> code_axes() {
        0x1p62,
        {},
        [](const Options& o) { return Value(static_cast<std::int64_t>(o.seed)); },
-       [](Options& o, const Value& v) { o.seed = static_cast<std::uint64_t>(integer(v)); }},
+       [](Options& o, const Value& v) { o.seed = static_cast<std::uint64_t>(integer(v)); },
+       Scope::Every,
+       kColumn},
   };
 }
 
@@ -202,11 +201,7 @@ const char* stage_name(StageKind kind) {
   return "measure";
 }
 
-StageKind stage_of(const std::string& name) {
-  for (StageKind kind : kStageKinds)
-    if (name == stage_name(kind)) return kind;
-  throw Error(Cause::BadOption, "unknown stage " + name);
-}
+StageKind stage_of(const std::string& name) { return value_of(kStageKinds, stage_name, name, "stage"); }
 
 std::vector<std::string> map_method_words() { return words_of(kMethods, method_name); }
 
@@ -218,19 +213,9 @@ std::vector<std::string> method_words() {
 
 bool is_anchor(const std::string& method) { return method == "draco" || method == "decimate-draco"; }
 
-Method method_of(const std::string& word) {
-  for (Method method : kMethods)
-    if (word == method_name(method)) return method;
-  throw Error(Cause::BadOption, "unknown method " + word);
-}
-
 const char* stream_mode_name(StreamMode mode) { return mode == StreamMode::Fixed ? "fixed" : "embedded"; }
 
-StreamMode stream_mode_of(const std::string& name) {
-  for (StreamMode mode : kStreamModes)
-    if (name == stream_mode_name(mode)) return mode;
-  throw Error(Cause::BadOption, "unknown mode " + name);
-}
+StreamMode stream_mode_of(const std::string& name) { return value_of(kStreamModes, stream_mode_name, name, "mode"); }
 
 const char* coder_name(StreamMode mode) { return mode == StreamMode::Fixed ? "gsp-fixed" : "gsp"; }
 
@@ -258,13 +243,18 @@ std::string Axis::refusal(const AxisValue& value) const {
 }
 
 bool Axis::applies_to(const std::string& method) const {
-  const std::string text = name;
-  if (text == "method" || text == "samples" || text == "seed") return true;
-  if (is_anchor(method)) return false;
-  if (text == "weights" && method == method_name(Method::Hybrid)) return true;
-  for (const char* of_gsp : {"objective", "weights", "corners", "base_edges", "relaxations"})
-    if (text == of_gsp) return method == method_name(Method::Gsp);
-  return true;
+  const bool gsp = method == method_name(Method::Gsp);
+  switch (scope) {
+    case Scope::Every:
+      return true;
+    case Scope::Maps:
+      return !is_anchor(method);
+    case Scope::Gsp:
+      return gsp;
+    case Scope::GspAndHybrid:
+      break;
+  }
+  return gsp || method == method_name(Method::Hybrid);
 }
 
 const std::vector<Axis>& axes() {
@@ -340,13 +330,9 @@ CellOptions options_from_json(const std::string& text) {
 }
 
 std::string further_options(const CellOptions& options) {
-  // The mode stands in the column `coder`.
-  static const std::vector<std::string> columns = {"method",  "gamma", "mu",      "base_vertices", "level",
-                                                   "wavelet", "mode",  "samples", "seed"};
   std::string text;
   for (const Axis& axis : axes()) {
-    if (std::find(columns.begin(), columns.end(), axis.name) != columns.end() || !axis.applies_to(options.method))
-      continue;
+    if (axis.has_column || !axis.applies_to(options.method)) continue;
     text += fmt::format("{}{}={}", text.empty() ? "" : " ", axis.name, to_string(axis.get(options)));
   }
   return text;

@@ -27,6 +27,8 @@ enum class StreamMode {
   Fixed      ///< as a stream made for that size alone (`encode_fixed`)
 };
 
+inline constexpr StreamMode kStreamModes[] = {StreamMode::Embedded, StreamMode::Fixed};
+
 /// "embedded", "fixed".
 const char* stream_mode_name(StreamMode mode);
 /// The inverse. Throws Error(BadOption).
@@ -51,8 +53,6 @@ std::vector<std::string> method_words();
 std::vector<std::string> map_method_words();
 /// True for Draco and decimate-then-Draco, which have no map.
 bool is_anchor(const std::string& method);
-/// The map that a method's name stands for. Throws Error(BadOption) for anchors and unknown words.
-Method method_of(const std::string& word);
 
 /// "default" and "paper": what options of the map are where none is given.
 std::vector<std::string> preset_words();
@@ -66,6 +66,13 @@ using AxisValue = std::variant<std::int64_t, double, std::string>;
 /// the command line follow from it, so a new option of a stage is one entry in `axes`.
 struct Axis {
   enum class Kind { Integer, Number, Word };
+  /// The methods for which it changes anything.
+  enum class Scope {
+    Every,  ///< the anchors too
+    Maps,   ///< all but the anchors
+    Gsp,
+    GspAndHybrid
+  };
   const char* name;
   StageKind stage;  ///< the first stage whose result it changes
   Kind kind;
@@ -74,6 +81,8 @@ struct Axis {
   AxisValue (*get)(const CellOptions&);
   /// The value has passed `refusal`.
   void (*set)(CellOptions&, const AxisValue&);
+  Scope scope = Scope::Maps;
+  bool has_column = false;  ///< true where curve.csv has a column for it, so that `further_options` leaves it out
 
   /// Why a value is impossible ("-1 is not 0 to 1000"); empty where it is fine.
   std::string refusal(const AxisValue& value) const;

@@ -6,9 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/curve/summary.h"
+#include "experiments/store/json_file.h"
 #include "experiments/version.h"
-#include "mesh/atomic_file.h"
-#include "mesh/read_file.h"
 
 namespace gsp {
 
@@ -136,20 +135,17 @@ void write_baseline(const std::string& path, const Baseline& baseline) {
   for (const auto& [name, tolerance] : baseline.tolerances)
     tolerances[name] = {{"absolute", tolerance.absolute}, {"relative", tolerance.relative}};
   for (const BaselineRow& row : baseline.rows) rows.push_back(row_json(row));
-  AtomicFile file(path);
-  file.stream() << Json{{"gsp_baseline", kFormat},
-                        {"recipe", baseline.recipe},
-                        {"version", baseline.version},
-                        {"tolerances", tolerances},
-                        {"rows", rows}}
-                       .dump(1, ' ', false, Json::error_handler_t::replace)
-                << '\n';
-  file.commit();
+  write_json(path, {{"gsp_baseline", kFormat},
+                    {"recipe", baseline.recipe},
+                    {"version", baseline.version},
+                    {"tolerances", tolerances},
+                    {"rows", rows}});
 }
 
 Baseline read_baseline(const std::string& path) {
+  const Json json = read_json(path);
   try {
-    return baseline_from(Json::parse(read_file(path)));
+    return baseline_from(json);
   } catch (const Json::exception& error) {
     throw Error(Cause::Malformed, path + ": " + error.what());
   }

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/curve/curve_csv.h"
+#include "experiments/store/json_file.h"
 #include "experiments/sweep/sweep.h"
 #include "experiments/version.h"
-#include "mesh/atomic_file.h"
 
 namespace gsp {
 
@@ -31,12 +31,6 @@ std::string file_name(const std::string& text, const std::string& ending) {
   std::string name;
   for (unsigned char c : text) name += std::isalnum(c) || c == '.' || c == '-' || c == '_' ? static_cast<char>(c) : '-';
   return name + ending;
-}
-
-void write_json(const std::string& path, const Json& json) {
-  AtomicFile file(path);
-  file.stream() << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-  file.commit();
 }
 
 Json compressai_json(const StoredCell& cell) {

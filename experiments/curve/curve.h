@@ -11,7 +11,7 @@
 namespace gsp {
 
 /// One row of curve.csv: one decoded size of one method on one model. Distances are relative to the input's
-/// bounding-box diagonal, bytes are those that were decoded.
+/// bounding-box diagonal, bytes are those that were decoded. Units and meanings stand in point_fields.cpp.
 struct CurvePoint {
   std::string model;
   std::string method;  ///< gsp, maps, maps-smoothed, hybrid, draco, decimate-draco
@@ -27,6 +27,7 @@ struct CurvePoint {
   double standard_error_db = 0.0;
   double remesh_error = 0.0;  ///< ceiling of the method's curve; 0 for the anchors
   std::uint64_t seed = 0;
+  std::string version;  ///< of the gsp that measured it
   std::string options;  ///< those without a column of their own, as "name=value name=value"
 };
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <type_traits>
 
-#include "experiments/version.h"
+#include "experiments/curve/point_fields.h"
 #include "mesh/atomic_file.h"
 #include "mesh/error.h"
 #include "mesh/read_file.h"
@@ -66,6 +66,8 @@ class Row {
     return fields_[column->second];
   }
 
+  void read(const char* name, std::string& value) const { value = text(name); }
+
   template <class Number>
   void read(const char* name, Number& value) const {
     const std::string& word = text(name);
@@ -83,30 +85,15 @@ class Row {
 };
 
 CurvePoint point_of(const Row& row) {
-  CurvePoint p;
-  p.model = row.text("model");
-  p.method = row.text("method");
-  p.wavelet = row.text("wavelet");
-  p.coder = row.text("coder");
-  row.read("gamma", p.gamma);
-  row.read("mu", p.mu);
-  row.read("base_vertices", p.base_vertices);
-  row.read("base_faces", p.base_faces);
-  row.read("level", p.level);
-  row.read("bytes", p.bytes);
-  row.read("bits_per_vertex", p.bits_per_vertex);
-  row.read("faces", p.faces);
-  row.read("rms_forward", p.rms_forward);
-  row.read("rms_backward", p.rms_backward);
-  row.read("rms", p.rms);
-  row.read("hausdorff", p.hausdorff);
-  row.read("psnr_db", p.psnr_db);
-  row.read("samples", p.samples);
-  row.read("standard_error_db", p.standard_error_db);
-  row.read("remesh_error", p.remesh_error);
-  row.read("seed", p.seed);
-  p.options = row.text("options");
-  return p;
+  CurvePoint point;
+  for (const PointField& field : point_fields())
+    std::visit([&](auto member) { row.read(field.name, point.*member); }, field.member);
+  return point;
+}
+
+std::string text_of(const PointField& column, const CurvePoint& point) {
+  return std::visit([&](auto member) { return field(fmt::format(fmt::runtime(column.format), point.*member)); },
+                    column.member);
 }
 
 }  // namespace
@@ -131,14 +118,20 @@ std::vector<CurvePoint> read_curve_csv(const std::string& path) try {
 void write_curve_csv(const std::string& path, const std::vector<CurvePoint>& points) {
   AtomicFile file(path);
   std::ostream& out = file.stream();
-  out << "model,method,gamma,mu,base_vertices,base_faces,level,wavelet,coder,bytes,bits_per_vertex,faces,rms_forward,"
-         "rms_backward,rms,hausdorff,psnr_db,samples,standard_error_db,remesh_error,seed,version,options\n";
-  for (const CurvePoint& p : points)
-    out << fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{:.6g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.4f},{},{:.2g},{:.6g},{},{},{}\n",
-        field(p.model), p.method, p.gamma, p.mu, p.base_vertices, p.base_faces, p.level, p.wavelet, p.coder, p.bytes,
-        p.bits_per_vertex, p.faces, p.rms_forward, p.rms_backward, p.rms, p.hausdorff, p.psnr_db, p.samples,
-        p.standard_error_db, p.remesh_error, p.seed, version(), p.options);
+  const char* separator = "";
+  for (const PointField& column : point_fields()) {
+    out << separator << column.name;
+    separator = ",";
+  }
+  out << '\n';
+  for (const CurvePoint& point : points) {
+    separator = "";
+    for (const PointField& column : point_fields()) {
+      out << separator << text_of(column, point);
+      separator = ",";
+    }
+    out << '\n';
+  }
   file.commit();
 }
 

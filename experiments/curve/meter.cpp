@@ -1,5 +1,7 @@
 #include "experiments/curve/meter.h"
 
+#include "experiments/version.h"
+
 namespace gsp {
 
 Meter::Meter(const Mesh& mesh, const std::string& model, std::uint64_t seed)
@@ -20,6 +22,7 @@ CurvePoint Meter::measure(const Mesh& decoded, std::size_t bytes, std::size_t sa
   point.samples = samples;
   point.standard_error_db = distance.standard_error_db();
   point.seed = seed_;
+  point.version = version();
   return point;
 }
 

@@ -15,6 +15,7 @@
 #include "experiments/report/paper.h"
 #include "experiments/report/run_figures.h"
 #include "experiments/report/view_data.h"
+#include "experiments/store/json_file.h"
 #include "experiments/version.h"
 #include "mesh/atomic_file.h"
 
@@ -31,19 +32,6 @@ void write_text(const std::string& path, const std::string& text) {
 }
 
 Json optional(const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(); }
-
-Json point_json(const CurvePoint& p) {
-  return {{"bytes", p.bytes},
-          {"bits_per_vertex", p.bits_per_vertex},
-          {"psnr_db", p.psnr_db},
-          {"standard_error_db", p.standard_error_db},
-          {"rms", p.rms},
-          {"rms_forward", p.rms_forward},
-          {"rms_backward", p.rms_backward},
-          {"hausdorff", p.hausdorff},
-          {"faces", p.faces},
-          {"samples", p.samples}};
-}
 
 class Report {
  public:
@@ -115,7 +103,7 @@ class Report {
     Json points = Json::array();
     std::string positions;
     for (const CurvePoint& p : cell.points()) {
-      points.push_back(point_json(p));
+      points.push_back(measured_json(p));
       positions = further_option(p.options, "positions");
     }
     Json bytes_at = Json::array();

@@ -1,9 +1,12 @@
 #include "experiments/store/store.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "experiments/curve/point_fields.h"
 #include "experiments/curve/stages.h"
 #include "experiments/store/database.h"
 
@@ -28,10 +31,6 @@ CREATE TABLE stage(key TEXT PRIMARY KEY, kind TEXT NOT NULL, input TEXT NOT NULL
   version TEXT NOT NULL, cause TEXT NOT NULL, failure TEXT NOT NULL, numbers TEXT NOT NULL,
   seconds REAL NOT NULL, cpu_seconds REAL NOT NULL, reference_seconds REAL NOT NULL) WITHOUT ROWID;
 CREATE TABLE artefact(stage TEXT, role TEXT, path TEXT NOT NULL, PRIMARY KEY(stage, role)) WITHOUT ROWID;
-CREATE TABLE point(stage TEXT, position INTEGER, coder TEXT NOT NULL, bytes INTEGER NOT NULL,
-  bits_per_vertex REAL NOT NULL, faces INTEGER NOT NULL, rms_forward REAL NOT NULL, rms_backward REAL NOT NULL,
-  rms REAL NOT NULL, hausdorff REAL NOT NULL, psnr_db REAL NOT NULL, samples INTEGER NOT NULL,
-  standard_error_db REAL NOT NULL, seed INTEGER NOT NULL, PRIMARY KEY(stage, position)) WITHOUT ROWID;
 )";
 
 std::string place(const std::string& folder, const std::string& path) {
@@ -43,23 +42,45 @@ std::string key_of(const PlannedCell& cell, StageKind kind) {
   return key == cell.keys.end() ? std::string() : key->second;
 }
 
-std::int64_t signed_of(std::size_t value) { return static_cast<std::int64_t>(value); }
+// SQLite's integers are signed; the bits of an unsigned one stay.
+std::int64_t stored(std::uint64_t value) { return static_cast<std::int64_t>(value); }
+std::int64_t stored(int value) { return value; }
+double stored(double value) { return value; }
+const std::string& stored(const std::string& value) { return value; }
 
+void load(const Statement& row, int column, std::uint64_t& value) {
+  value = static_cast<std::uint64_t>(row.integer(column));
+}
+void load(const Statement& row, int column, int& value) { value = static_cast<int>(row.integer(column)); }
+void load(const Statement& row, int column, double& value) { value = row.real(column); }
+void load(const Statement& row, int column, std::string& value) { value = row.text(column); }
+
+const char* sql_type(const PointMember& member) {
+  if (std::holds_alternative<std::string CurvePoint::*>(member)) return "TEXT";
+  return std::holds_alternative<double CurvePoint::*>(member) ? "REAL" : "INTEGER";
+}
+
+// The table of points: which stage, which point of it, then a column for each of `measured_fields`.
+std::string point_schema() {
+  std::string columns = "stage TEXT, position INTEGER";
+  for (const PointField& field : measured_fields())
+    columns += fmt::format(", {} {} NOT NULL", field.name, sql_type(field.member));
+  return "CREATE TABLE point(" + columns + ", PRIMARY KEY(stage, position)) WITHOUT ROWID";
+}
+
+std::string point_columns() {
+  std::string columns = "stage, position";
+  for (const PointField& field : measured_fields()) columns += fmt::format(", {}", field.name);
+  return columns;
+}
+
+// From a row of `point_columns`.
 CurvePoint read_point(const Statement& row) {
-  CurvePoint p;
-  p.coder = row.text(1);
-  p.bytes = static_cast<std::size_t>(row.integer(2));
-  p.bits_per_vertex = row.real(3);
-  p.faces = static_cast<int>(row.integer(4));
-  p.rms_forward = row.real(5);
-  p.rms_backward = row.real(6);
-  p.rms = row.real(7);
-  p.hausdorff = row.real(8);
-  p.psnr_db = row.real(9);
-  p.samples = static_cast<std::size_t>(row.integer(10));
-  p.standard_error_db = row.real(11);
-  p.seed = static_cast<std::uint64_t>(row.integer(12));
-  return p;
+  CurvePoint point;
+  int column = 2;
+  for (const PointField& field : measured_fields())
+    std::visit([&](auto member) { load(row, column++, point.*member); }, field.member);
+  return point;
 }
 
 }  // namespace
@@ -110,6 +131,7 @@ std::vector<CurvePoint> StoredCell::points() const {
   std::vector<CurvePoint> rows = measured->points;
   for (CurvePoint& row : rows) {
     row.model = model;
+    row.version = measured->version;
     describe(row, options, shape);
   }
   return rows;
@@ -159,6 +181,7 @@ struct Store::Impl {
       database.execute("PRAGMA journal_mode=WAL");
       Transaction transaction(database);
       database.execute(kSchema);
+      database.execute(point_schema());
       database.execute("PRAGMA user_version=" + std::to_string(kSchemaVersion));
       transaction.commit();
     } else if (found != kSchemaVersion) {
@@ -196,12 +219,17 @@ struct Store::Impl {
     forget_details(r.key);
     const auto artefact = database.prepare("INSERT INTO artefact VALUES(?,?,?)");
     for (const auto& [role, path] : r.artefacts) artefact->run(r.key, role, path);
-    const auto point = database.prepare("INSERT INTO point VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+    std::string places = "?,?";
+    for (std::size_t i = 0; i < measured_fields().size(); ++i) places += ",?";
+    const auto point = database.prepare(fmt::format("INSERT INTO point({}) VALUES({})", point_columns(), places));
     std::int64_t position = 0;
-    for (const CurvePoint& p : r.points)
-      point->run(r.key, position++, p.coder, signed_of(p.bytes), p.bits_per_vertex, std::int64_t{p.faces},
-                 p.rms_forward, p.rms_backward, p.rms, p.hausdorff, p.psnr_db, signed_of(p.samples),
-                 p.standard_error_db, static_cast<std::int64_t>(p.seed));
+    for (const CurvePoint& p : r.points) {
+      point->bind(r.key).bind(position++);
+      for (const PointField& field : measured_fields())
+        std::visit([&](auto member) { point->bind(stored(p.*member)); }, field.member);
+      point->step();
+      point->restart();
+    }
   }
 
   void forget_details(const std::string& key) {
@@ -296,10 +324,8 @@ std::map<std::string, StageResult> Store::results() const {
   }
   const auto artefact = impl_->database.prepare("SELECT stage, role, path FROM artefact");
   while (artefact->step()) results[artefact->text(0)].artefacts[artefact->text(1)] = artefact->text(2);
-  const auto point = impl_->database.prepare(
-      "SELECT stage, coder, bytes, bits_per_vertex, faces, rms_forward, rms_backward, rms, hausdorff, psnr_db, "
-      "samples, "
-      "standard_error_db, seed FROM point ORDER BY stage, position");
+  const auto point =
+      impl_->database.prepare(fmt::format("SELECT {} FROM point ORDER BY stage, position", point_columns()));
   while (point->step()) results[point->text(0)].points.push_back(read_point(*point));
   return results;
 }

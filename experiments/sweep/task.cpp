@@ -1,11 +1,8 @@
 #include "experiments/sweep/task.h"
 
-#include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
-#include "mesh/atomic_file.h"
-#include "mesh/read_file.h"
+#include "experiments/store/json_file.h"
 
 namespace gsp {
 
@@ -13,37 +10,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-// A surface that is met exactly has an infinite PSNR, which JSON cannot hold.
-double number(const Json& value) {
-  return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
-}
-
-Json point_json(const CurvePoint& p) {
-  return {p.coder, p.bytes,     p.bits_per_vertex, p.faces,   p.rms_forward,       p.rms_backward,
-          p.rms,   p.hausdorff, finite(p.psnr_db), p.samples, p.standard_error_db, p.seed};
-}
-
-CurvePoint point_of(const Json& j) {
-  CurvePoint p;
-  p.coder = j.at(0).get<std::string>();
-  p.bytes = j.at(1).get<std::size_t>();
-  p.bits_per_vertex = j.at(2).get<double>();
-  p.faces = j.at(3).get<int>();
-  p.rms_forward = j.at(4).get<double>();
-  p.rms_backward = j.at(5).get<double>();
-  p.rms = j.at(6).get<double>();
-  p.hausdorff = j.at(7).get<double>();
-  p.psnr_db = number(j.at(8));
-  p.samples = j.at(9).get<std::size_t>();
-  p.standard_error_db = j.at(10).get<double>();
-  p.seed = j.at(11).get<std::uint64_t>();
-  return p;
-}
-
 Json result_json(const StageResult& r) {
   Json points = Json::array();
-  for (const CurvePoint& p : r.points) points.push_back(point_json(p));
+  for (const CurvePoint& p : r.points) points.push_back(measured_json(p));
   return {{"key", r.key},
           {"kind", stage_name(r.kind)},
           {"input", r.input},
@@ -70,7 +39,7 @@ StageResult result_of(const Json& j) {
   r.failure = j.at("failure").get<std::string>();
   r.numbers = j.at("numbers").get<std::map<std::string, double>>();
   r.artefacts = j.at("artefacts").get<std::map<std::string, std::string>>();
-  for (const Json& point : j.at("points")) r.points.push_back(point_of(point));
+  for (const Json& point : j.at("points")) r.points.push_back(measured_point(point));
   r.seconds = j.at("seconds").get<double>();
   r.cpu_seconds = j.at("cpu_seconds").get<double>();
   r.reference_seconds = j.at("reference_seconds").get<double>();
@@ -92,17 +61,11 @@ PlannedCell cell_of(const Json& j) {
   return cell;
 }
 
-void write_json(const std::string& path, const Json& json) {
-  AtomicFile file(path);
-  // Sentences of failures may name files, whose names may hold any bytes.
-  file.stream() << json.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
-  file.commit();
-}
-
 template <class Read>
-auto read_json(const std::string& path, Read read) {
+auto read_as(const std::string& path, Read read) {
+  const Json json = read_json(path);
   try {
-    return read(Json::parse(read_file(path)));
+    return read(json);
   } catch (const Json::exception& error) {
     throw Error(Cause::Malformed, path + ": " + error.what());
   }
@@ -118,7 +81,7 @@ void write_task(const std::string& path, const Task& task) {
 }
 
 Task read_task(const std::string& path) {
-  return read_json(path, [](const Json& j) {
+  return read_as(path, [](const Json& j) {
     Task task;
     task.surface_key = j.at("surface_key").get<std::string>();
     task.surface = j.at("surface").get<std::string>();
@@ -134,7 +97,7 @@ Task read_task(const std::string& path) {
 void write_result(const std::string& path, const StageResult& result) { write_json(path, result_json(result)); }
 
 StageResult read_result(const std::string& path) {
-  return read_json(path, [](const Json& j) { return result_of(j); });
+  return read_as(path, [](const Json& j) { return result_of(j); });
 }
 
 std::string inbox_folder(const std::string& store) { return store + "/inbox"; }

@@ -32,6 +32,7 @@ CurvePoint sample_point(const std::string& model, const std::string& method, std
   point.bytes = bytes;
   point.psnr_db = psnr;
   point.remesh_error = method == "gsp" ? 1e-4 : 0.0;
+  point.version = version();
   point.options = "objective=distortion";
   return point;
 }

@@ -1,4 +1,5 @@
 #include "experiments/curve/stages.h"
+#include "experiments/version.h"
 
 #include <catch2/catch.hpp>
 
@@ -35,6 +36,7 @@ TEST_CASE("streams for one size each keep to it, and decode to no less than the 
   const std::vector<CurvePoint> prefixes = decoded_curve(embedded, budgets, meter, kSamples, silent);
   const std::vector<CurvePoint> fixed =
       decoded_streams(fixed_streams(mesh, {}, embedded, budgets, silent), meter, kSamples, silent);
+  CHECK(prefixes.front().version == version());
   REQUIRE(prefixes.size() == budgets.size() + 1);
   REQUIRE(fixed.size() == prefixes.size());
   double gain = 0.0;

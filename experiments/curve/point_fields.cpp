@@ -1,0 +1,73 @@
+#include "experiments/curve/point_fields.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace gsp {
+
+const std::vector<PointField>& point_fields() {
+  using P = CurvePoint;
+  constexpr bool kMeasured = true;
+  constexpr const char* kDiagonals = "diagonals";
+  constexpr const char* kShort = "{:.6g}";
+  static const std::vector<PointField> all = {
+      {"model", "", "file name without folder and ending", &P::model},
+      {"method", "",
+       "gsp; maps (the initial map); maps-smoothed (the same, smoothed by Loop on the parameters); hybrid (the same, "
+       "relaxed by pairs of patches); draco; decimate-draco",
+       &P::method},
+      {"gamma", "", "weight of triangle shape in the simplification's cost; 0 for the anchors", &P::gamma},
+      {"mu", "", "weight of area dispersion in the simplification's cost; 0 for the anchors", &P::mu},
+      {"base_vertices", "", "vertices of the base complex; 0 for the anchors", &P::base_vertices},
+      {"base_faces", "", "faces of the base complex; 0 for the anchors", &P::base_faces},
+      {"level", "", "quadrisections of the base complex; 0 for the anchors", &P::level},
+      {"wavelet", "", "transform; empty for the anchors", &P::wavelet},
+      {"coder", "",
+       "`gsp`: a prefix of the embedded stream; `gsp-fixed`: a stream for that size alone; or Draco with its bits per "
+       "coordinate (`draco-qp11`)",
+       &P::coder, kMeasured},
+      {"bytes", "bytes", "decoded", &P::bytes, kMeasured},
+      {"bits_per_vertex", "bits", "8·bytes over the vertices of the input", &P::bits_per_vertex, kMeasured, kShort},
+      {"faces", "", "of the decoded surface", &P::faces, kMeasured},
+      {"rms_forward", kDiagonals, "root mean square distance from the input to the decoded surface", &P::rms_forward,
+       kMeasured, kShort},
+      {"rms_backward", kDiagonals, "the same from the decoded surface to the input", &P::rms_backward, kMeasured,
+       kShort},
+      {"rms", kDiagonals, "the larger of the two", &P::rms, kMeasured, kShort},
+      {"hausdorff", kDiagonals, "largest sampled distance, both ways: a lower bound", &P::hausdorff, kMeasured, kShort},
+      {"psnr_db", "dB", "20·log10(1 / rms): the peak is the diagonal", &P::psnr_db, kMeasured, "{:.4f}"},
+      {"samples", "", "per direction, area-stratified", &P::samples, kMeasured},
+      {"standard_error_db", "dB", "of psnr_db, from the sampling", &P::standard_error_db, kMeasured, "{:.2g}"},
+      {"remesh_error", kDiagonals,
+       "rms of the uncoded remesh, the ceiling of the method's curve; 0 for the anchors, which have none",
+       &P::remesh_error, !kMeasured, kShort},
+      {"seed", "", "of the samples", &P::seed, kMeasured},
+      {"version", "", "of the gsp that measured it, with the commit", &P::version},
+      {"options", "",
+       "those that have no column, as `name=value name=value`; `positions` says what the remesh's vertices are, "
+       "`kind` how many numbers each has",
+       &P::options},
+  };
+  return all;
+}
+
+const std::vector<PointField>& measured_fields() {
+  static const std::vector<PointField> measured = [] {
+    std::vector<PointField> fields;
+    std::copy_if(point_fields().begin(), point_fields().end(), std::back_inserter(fields),
+                 [](const PointField& field) { return field.measured; });
+    return fields;
+  }();
+  return measured;
+}
+
+std::string point_fields_table() {
+  std::string table = "| column | unit | meaning |\n|---|---|---|\n";
+  for (const PointField& field : point_fields())
+    table += fmt::format("| {} | {} | {} |\n", field.name, field.unit, field.meaning);
+  return table;
+}
+
+}  // namespace gsp
