@@ -155,7 +155,7 @@ ParameterizeResult finish(const Mesh& input, const Start& start, Method method, 
     if (!check.valid()) {
       std::ostringstream why;
       why << "the map is not valid: " << check.flipped_faces << " flipped faces, " << check.wrong_angle_vertices
-          << " vertices with a wrong angle, " << check.mismatched_edges << " mismatched edges, "
+          << " vertices with a wrong angle, " << check.mismatched_edges << " mismatched edges, " << check.torn_edges << " torn edges, "
           << check.misplaced_vertices << " vertices outside their chart, relative area error " << check.area_error;
       throw Error(Cause::InvalidMap, why.str());
     }

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "remesh/develop.h"
+#include "param/map/development.h"
 
 namespace gsp {
 

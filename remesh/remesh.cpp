@@ -10,7 +10,7 @@
 #include "mesh/parallel.h"
 #include "remesh/chart_samples.h"
 #include "remesh/closest_fit.h"
-#include "remesh/develop.h"
+#include "param/map/development.h"
 #include "remesh/fit_positions.h"
 
 namespace gsp {
@@ -64,10 +64,11 @@ constexpr std::size_t kBlock = 4096;
 /// The pieces of all faces, by chart and within one by face.
 std::vector<std::vector<FacePiece>> pieces_by_chart(const Parameterization& map) {
   const std::size_t faces = map.surface.faces.size();
+  const Development development(map);
   std::vector<std::vector<FacePiece>> blocks((faces + kBlock - 1) / kBlock);
   parallel_for(faces, kBlock, [&](std::size_t begin, std::size_t end) {
     std::vector<FacePiece>& pieces = blocks[begin / kBlock];
-    for (std::size_t f = begin; f < end; ++f) develop_face(map, static_cast<int>(f), pieces);
+    for (std::size_t f = begin; f < end; ++f) development.append(static_cast<int>(f), pieces);
   });
   std::vector<int> count(map.base.faces.size(), 0);
   for (const auto& block : blocks)

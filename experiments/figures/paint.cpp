@@ -4,7 +4,7 @@
 #include <array>
 #include <tuple>
 
-#include "remesh/develop.h"
+#include "param/map/development.h"
 
 namespace gsp {
 
@@ -30,9 +30,10 @@ Colour over(const Colour& under, const Colour& ink, double share) { return under
 class PatchLookup {
  public:
   explicit PatchLookup(const Parameterization& map) : corners_(map.face_corners) {
+    const Development development(map);
     for (int f = 0; f < map.surface.face_count(); ++f) {
       starts_.push_back(pieces_.size());
-      develop_face(map, f, pieces_);
+      development.append(f, pieces_);
     }
     starts_.push_back(pieces_.size());
   }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "mesh/error.h"
+#include "param/map/convex_clip.h"
 
 namespace gsp {
 
@@ -29,12 +30,25 @@ bool Atlas::reassign(int vertex) {
     change_chart(vertex, arrival->chart, arrival->change * to_neighbour);
     found = true;
   });
-  return corners_only ? reassign_from_middle(vertex) : found;
+  return corners_only ? reassign_from_ring(vertex) : found;
 }
 
-/// Transitions at corners hold up to turns only; the way from the middle of the chart is short.
-bool Atlas::reassign_from_middle(int vertex) {
-  const auto arrival = follow(base, patch[vertex], chart_position(1.0 / 3.0, 1.0 / 3.0), position[vertex]);
+/// Transitions at patch corners hold up to turns only, so no edge leads from there. No base vertex lies inside the star
+/// of a vertex, and what its whole ring sees is convex: a straight walk from one such place to the vertex passes none
+/// on the wrong side. The place in the chart that the vertex comes from is in its triangle.
+bool Atlas::reassign_from_ring(int vertex) {
+  std::vector<Complex> seen(kChartCorners.size());
+  for (int k = 0; k < 3; ++k) seen[k] = kChartCorners[k].value();
+  const int first = surface->halfedges.outgoing[vertex];
+  for (int h = first;;) {
+    const int back = Halfedges::prev(h);
+    clip_to_left(seen, along(h, false).apply(position[surface->halfedges.to(h)]),
+                 along(back, true).apply(position[surface->halfedges.from(back)]));
+    h = surface->halfedges.rotate_ccw(h);
+    if (h == first || seen.empty()) break;
+  }
+  const Complex start = seen.empty() ? chart_position(1.0 / 3.0, 1.0 / 3.0) : mean(seen);
+  const auto arrival = follow(base, patch[vertex], start, position[vertex]);
   if (arrival) change_chart(vertex, arrival->chart, arrival->change);
   return arrival.has_value();
 }
@@ -47,7 +61,7 @@ int Atlas::reassign_all() {
     const std::size_t before = outside.size();
     outside.erase(std::remove_if(outside.begin(), outside.end(), [&](int v) { return reassign(v); }), outside.end());
     if (outside.size() < before) continue;
-    const auto stuck = std::find_if(outside.begin(), outside.end(), [&](int v) { return reassign_from_middle(v); });
+    const auto stuck = std::find_if(outside.begin(), outside.end(), [&](int v) { return reassign_from_ring(v); });
     if (stuck == outside.end()) break;
     outside.erase(stuck);
   }

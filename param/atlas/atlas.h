@@ -41,12 +41,12 @@ class Atlas {
 
   /// Gives a vertex that lies outside its chart's triangle the chart where it lies. The edge from a neighbour that lies
   /// inside its own, and is no patch corner, is straight in the neighbour's chart and leads there; between patch
-  /// corners alone the way starts in the middle of the chart. Returns false, and leaves the vertex as it was, where
-  /// there is no such neighbour yet, or the way leaves the base.
+  /// corners alone the walk starts at a place of the chart that the whole ring sees. Returns false, and leaves the
+  /// vertex as it was, where there is no such neighbour yet, or the way leaves the base.
   bool reassign(int vertex);
 
   /// The same for all free vertices, from neighbour to neighbour; where the neighbours of some are all outside or patch
-  /// corners their way starts in the middle of their charts too. Returns how many still lie outside.
+  /// corners their walk starts at such a place too. Returns how many still lie outside.
   int reassign_all();
 
   /// Transitions of the face's corners into a common chart, that of corner `reference` (0..2). Around a face no corner
@@ -73,7 +73,7 @@ class Atlas {
   Parameterization finish(std::vector<std::string> provenance) const;
 
  private:
-  bool reassign_from_middle(int vertex);
+  bool reassign_from_ring(int vertex);
   /// From the chart of a half-edge's head to that of its tail, or back.
   Transition along(int h, bool reverse) const {
     const int edge = surface->edge_of[h];

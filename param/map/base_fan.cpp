@@ -15,7 +15,7 @@ bool inside_chart(Complex z) {
   return std::min({w[0], w[1], w[2]}) >= -kOnEdge;
 }
 
-std::optional<Arrival> follow(const BaseComplex& base, int chart, Complex from, Complex to, std::vector<int>* sides) {
+Arrival walk_straight(const BaseComplex& base, int chart, Complex from, Complex to, std::vector<int>* sides) {
   Arrival at{chart, {}};
   int entered = -1;  // edge of the chart by which the way came in
   for (int step = 0; step <= base.face_count(); ++step) {
@@ -33,13 +33,19 @@ std::optional<Arrival> follow(const BaseComplex& base, int chart, Complex from, 
     }
     if (crossed < 0) return at;
     const int side = 3 * at.chart + crossed;
-    if (base.twins[side] < 0) return std::nullopt;
+    if (base.twins[side] < 0) break;
     if (sides) sides->push_back(side);
     at.change = base.across(side) * at.change;
     at.chart = base.twins[side] / 3;
     entered = base.twins[side] % 3;
   }
-  return std::nullopt;
+  at.reached = false;
+  return at;
+}
+
+std::optional<Arrival> follow(const BaseComplex& base, int chart, Complex from, Complex to, std::vector<int>* sides) {
+  const Arrival at = walk_straight(base, chart, from, to, sides);
+  return at.reached ? std::optional<Arrival>(at) : std::nullopt;
 }
 
 const BaseFan::Sector& BaseFan::sector(int s) const {

@@ -41,14 +41,19 @@ int find_base_edge(const BaseComplex& base, const std::vector<BaseFan>& fans, in
 /// Whether a point lies in its chart's triangle, or outside by rounding.
 bool inside_chart(Complex z);
 
-/// Where a straight way leads.
+/// Where a straight walk over the base ends.
 struct Arrival {
   int chart;
-  Transition change;  ///< from the chart where the way starts
+  Transition change;    ///< from the chart where the walk starts
+  bool reached = true;  ///< false where it came to the base's boundary before its goal
 };
-/// Follows the straight way between two points given in one chart, of which the first lies in the chart's triangle,
-/// across base edges until the second lies in the triangle too. Nothing where the way leaves the base. `sides` receives
-/// the half-edges that it crosses, each of the face that it leaves.
+/// Walks straight between two points given in one chart, of which the first lies in the chart's triangle, across base
+/// edges until the second lies in the triangle too, or at the base's boundary. A walk from a base vertex goes through
+/// the chart's own sector. `sides` receives the half-edges that it crosses, each of the face that it leaves. O(base
+/// faces crossed).
+Arrival walk_straight(const BaseComplex& base, int chart, Complex from, Complex to, std::vector<int>* sides = nullptr);
+
+/// The same, with nothing where the walk leaves the base.
 std::optional<Arrival> follow(const BaseComplex& base, int chart, Complex from, Complex to,
                               std::vector<int>* sides = nullptr);
 

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "mesh/halfedges.h"
+#include "param/map/development.h"
 #include "param/map/parameterization.h"
 
 namespace gsp {
@@ -35,7 +37,7 @@ double distance_to_lattice(Complex z) {
 }
 
 /// Whether one lattice motion takes a to a_there and b to b_there.
-bool lattice_motion(Complex a, Complex b, Complex a_there, Complex b_there) {
+bool differ_by_lattice_motion(Complex a, Complex b, Complex a_there, Complex b_there) {
   for (int k = 0; k < 6; ++k) {
     const Complex turned_a = omega_power(k) * a;
     if (std::abs((b_there - a_there) - omega_power(k) * (b - a)) <= kTolerance &&
@@ -83,7 +85,8 @@ void check_edges(const Parameterization& map, const Halfedges& halfedges, MapChe
     if (t < h) continue;
     const auto &here = map.face_corners[h / 3], &there = map.face_corners[t / 3];
     const int from = h % 3, from_there = (t % 3 + 1) % 3;
-    if (!lattice_motion(here[from], here[(from + 1) % 3], there[from_there], there[t % 3])) ++check.mismatched_edges;
+    if (!differ_by_lattice_motion(here[from], here[(from + 1) % 3], there[from_there], there[t % 3]))
+      ++check.mismatched_edges;
   }
 }
 
@@ -115,6 +118,56 @@ void check_positions(const Parameterization& map, MapCheck& check) {
     if (misplaced[v] && check.misplaced_vertices++ == 0) check.first_misplaced = v;
 }
 
+/// Where a point of a face lies: the base face, by the piece of the face that holds it best, and the place in its
+/// chart.
+struct Place {
+  int chart;
+  Complex at;
+};
+
+Place place_of(const std::vector<FacePiece>& pieces, Complex z) {
+  Place best{-1, {}};
+  double deepest = 0.0;
+  for (const FacePiece& piece : pieces) {
+    const Complex at = piece.motion.apply(z);
+    const auto w = chart_barycentric(at);
+    const double depth = std::min({w[0], w[1], w[2]});
+    if (best.chart >= 0 && depth <= deepest) continue;
+    deepest = depth;
+    best = {piece.chart, at};
+  }
+  return best;
+}
+
+/// Whether two places are the same point, which an edge of the base may lie between.
+bool same_place(const BaseComplex& base, const Place& a, const Place& b) {
+  if (a.chart == b.chart && std::abs(a.at - b.at) <= kTolerance) return true;
+  for (int h = 3 * a.chart; h < 3 * a.chart + 3; ++h)
+    if (base.twins[h] >= 0 && base.twins[h] / 3 == b.chart && std::abs(base.across(h).apply(a.at) - b.at) <= kTolerance)
+      return true;
+  return false;
+}
+
+void check_places(const Parameterization& map, const Halfedges& halfedges, MapCheck& check) {
+  const Development development(map);
+  std::vector<FacePiece> here, there;
+  const auto middle = [&](int h) {
+    return 0.5 * (map.face_corners[h / 3][h % 3] + map.face_corners[h / 3][Halfedges::next(h) % 3]);
+  };
+  for (int f = 0; f < map.surface.face_count(); ++f) {
+    here.clear();
+    development.append(f, here);
+    for (int h = 3 * f; h < 3 * f + 3; ++h) {
+      const int twin = halfedges.twin[h];
+      if (twin < h) continue;
+      there.clear();
+      development.append(twin / 3, there);
+      if (same_place(map.base, place_of(here, middle(h)), place_of(there, middle(twin)))) continue;
+      if (check.torn_edges++ == 0) check.first_torn = f;
+    }
+  }
+}
+
 }  // namespace
 
 MapCheck check_map(const Parameterization& map) {
@@ -125,6 +178,7 @@ MapCheck check_map(const Parameterization& map) {
   check_angles(map, halfedges, check);
   check_edges(map, halfedges, check);
   check_positions(map, check);
+  if (check.flipped_faces == 0 && check.mismatched_edges == 0) check_places(map, halfedges, check);
   return check;
 }
 

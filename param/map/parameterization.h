@@ -48,10 +48,14 @@ struct MapCheck {
   int first_misplaced = -1;
   /// Edges on which the charts of the two faces do not differ by an exact lattice motion (to 1e-9).
   int mismatched_edges = 0;
+  /// Edges whose middle lies at another place of the base by one of their two faces than by the other: a vertex has the
+  /// chart of another sector about a corner, or of the other side of a handle.
+  int torn_edges = 0;
+  int first_torn = -1;  ///< a face at one
 
   bool valid() const {
     return flipped_faces == 0 && wrong_angle_vertices == 0 && misplaced_vertices == 0 && mismatched_edges == 0 &&
-           area_error < 1e-9;
+           torn_edges == 0 && area_error < 1e-9;
   }
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "param/atlas/triangle_links.h"
+#include "param/map/convex_clip.h"
 
 namespace gsp {
 
@@ -11,19 +12,6 @@ namespace {
 constexpr double kThinEnough = 1e-3;  // thickness at which a triangle still does: what follows makes it thicker
 
 constexpr Complex kDirection(0.8, 0.6);
-
-/// The part of a convex polygon to the left of the line from a to b.
-void clip(std::vector<Complex>& convex, Complex a, Complex b, std::vector<Complex>& clipped) {
-  clipped.clear();
-  const std::size_t n = convex.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Complex p = convex[i], q = convex[(i + 1) % n];
-    const double dp = cross(b - a, p - a), dq = cross(b - a, q - a);
-    if (dp >= 0.0) clipped.push_back(p);
-    if ((dp > 0.0 && dq < 0.0) || (dp < 0.0 && dq > 0.0)) clipped.push_back(p + dp / (dp - dq) * (q - p));
-  }
-  convex.swap(clipped);
-}
 
 }  // namespace
 
@@ -49,9 +37,9 @@ std::optional<Complex> Kernel::place(Complex wanted) const {
     low = {std::min(low.real(), z.real()), std::min(low.imag(), z.imag())};
     high = {std::max(high.real(), z.real()), std::max(high.imag(), z.imag())};
   }
-  std::vector<Complex> inside{low, {high.real(), low.imag()}, high, {low.real(), high.imag()}}, room;
+  std::vector<Complex> inside{low, {high.real(), low.imag()}, high, {low.real(), high.imag()}};
   for (std::size_t j = 0; j < border.size() && inside.size() > 2; ++j)
-    clip(inside, border[j], border[(j + 1) % border.size()], room);
+    clip_to_left(inside, border[j], border[(j + 1) % border.size()]);
   Complex at = wanted;
   if (inside.size() > 2) {
     Complex middle = 0.0;

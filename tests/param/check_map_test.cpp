@@ -1,5 +1,7 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 #include "mesh/error.h"
 #include "mesh/halfedges.h"
 #include "mesh/shapes.h"
@@ -161,4 +163,33 @@ TEST_CASE("arrays that do not fit together are refused") {
   refuses([](auto& m) { m.base.faces[0] = {0, 1, 6}; });
   refuses([](auto& m) { m.base.twins[0] = -1; });
   refuses([](auto& m) { m.base.twins.clear(); });
+}
+
+TEST_CASE("a star in the chart of another base face is torn off, though areas, angles and lattice motions hold") {
+  Parameterization map = exact_maps::quadrisected(shapes::icosahedron(), 2);
+  REQUIRE(check_map(map).torn_edges == 0);
+  // A vertex whose whole star lies within its base face, and the faces around it, get another chart with the same
+  // numbers.
+  const int chart = 7;
+  int inner = -1;
+  for (int v = 0; v < map.surface.vertex_count() && inner < 0; ++v) {
+    const auto w = chart_barycentric(map.position[v]);
+    if (map.patch[v] != chart && std::min({w[0], w[1], w[2]}) > 0.2) inner = v;
+  }
+  REQUIRE(inner >= 0);
+  map.patch[inner] = chart;
+  int around = 0;
+  for (int f = 0; f < map.surface.face_count(); ++f)
+    if (std::count(map.surface.faces[f].begin(), map.surface.faces[f].end(), inner) > 0) {
+      map.face_chart[f] = chart;
+      ++around;
+    }
+  const MapCheck check = check_map(map);
+  CHECK(check.flipped_faces == 0);
+  CHECK(check.wrong_angle_vertices == 0);
+  CHECK(check.misplaced_vertices == 0);
+  CHECK(check.mismatched_edges == 0);
+  CHECK(check.area_error < 1e-12);
+  CHECK(check.torn_edges == around);
+  CHECK_FALSE(check.valid());
 }

@@ -8,7 +8,7 @@
 #include "mesh/parallel.h"
 #include "mesh/random.h"
 #include "mesh/shapes.h"
-#include "remesh/develop.h"
+#include "param/map/development.h"
 #include "tests/remesh/worst.h"
 #include "tests/support/exact_maps.h"
 
@@ -233,7 +233,8 @@ TEST_CASE("a face is visited once in each base triangle it reaches, so the cost 
     Parameterization map = exact_maps::quadrisected(shapes::icosahedron(), level);
     exact_maps::jitter(map, 0.19, level, 1);
     std::vector<FacePiece> pieces;
-    for (int f = 0; f < map.surface.face_count(); ++f) develop_face(map, f, pieces);
+    const Development development(map);
+    for (int f = 0; f < map.surface.face_count(); ++f) development.append(f, pieces);
     // Only faces beside base edges have more than one piece: 30 edges, 2^level steps each, at most 6 faces a step.
     CHECK(static_cast<int>(pieces.size()) <= map.surface.face_count() + 30 * (1 << level) * 6);
   }

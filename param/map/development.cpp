@@ -1,0 +1,140 @@
+#include "param/map/development.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "mesh/halfedges.h"
+#include "param/map/base_fan.h"
+#include "param/map/lattice_motion.h"
+
+namespace gsp {
+
+namespace {
+
+/// Reaching less far than this over an edge, or through a gap narrower than this, is rounding (chart units).
+constexpr double kReach = 1e-12;
+/// A vertex's position and the face's corner are the same point of the same chart up to this.
+constexpr double kSamePlace = 1e-9;
+
+using Weights = std::array<double, 3>;
+
+/// The piece of the base face beyond an edge of the one that `from` lies in.
+FacePiece step_across(const BaseComplex& base, const FacePiece& from, int edge) {
+  const int h = 3 * from.chart + edge;
+  return {base.twins[h] / 3, from.face, base.across(h) * from.motion};
+}
+
+Complex centroid(const std::array<Complex, 3>& corners) { return (corners[0] + corners[1] + corners[2]) / 3.0; }
+
+double depth(Complex z) {
+  const Weights w = chart_barycentric(z);
+  return std::min({w[0], w[1], w[2]});
+}
+
+/// A corner of the face that lies at the same place of the same chart, and is no base vertex: a walk from it is in the
+/// right sector.
+std::optional<Complex> anchor(const Parameterization& map, int face) {
+  for (int k = 0; k < 3; ++k) {
+    const int v = map.surface.faces[face][k];
+    const Complex corner = map.face_corners[face][k];
+    if (map.patch[v] != map.face_chart[face] || std::abs(map.position[v] - corner) > kSamePlace) continue;
+    const Weights w = chart_barycentric(corner);
+    if (std::max({w[0], w[1], w[2]}) < 1.0 - kSamePlace) return corner;
+  }
+  return std::nullopt;
+}
+
+FacePiece walk_to_centroid(const Parameterization& map, int face, const FacePiece& from, Complex start) {
+  const Complex goal = from.motion.apply(centroid(map.face_corners[face]));
+  const Arrival at = walk_straight(map.base, from.chart, from.motion.apply(start), goal);
+  return {at.chart, face, at.change * from.motion};
+}
+
+/// Whether the triangle of the given weights reaches beyond `edge` of the chart's triangle through that edge itself.
+bool crosses(const std::array<Weights, 3>& corners, int edge) {
+  const int across = (edge + 2) % 3, along = (edge + 1) % 3;
+  double low = 2.0, high = -1.0, farthest = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const Weights &p = corners[k], &q = corners[(k + 1) % 3];
+    farthest = std::min(farthest, p[across]);
+    if ((p[across] < 0.0) == (q[across] < 0.0)) continue;
+    const double t = p[across] / (p[across] - q[across]);
+    const double at = p[along] + t * (q[along] - p[along]);
+    low = std::min(low, at);
+    high = std::max(high, at);
+  }
+  return farthest < -kReach && std::min(high, 1.0) - std::max(low, 0.0) > kReach;
+}
+
+bool same(const FacePiece& a, const FacePiece& b) { return a.chart == b.chart && a.motion == b.motion; }
+
+/// Adds the pieces that a face reaches from `pieces.back()`, its first one.
+void flood(const Parameterization& map, std::vector<FacePiece>& pieces) {
+  const std::size_t first = pieces.size() - 1;
+  const auto& corners = map.face_corners[pieces.back().face];
+  for (std::size_t at = first; at < pieces.size(); ++at) {
+    const FacePiece here = pieces[at];
+    std::array<Weights, 3> weights;
+    for (int k = 0; k < 3; ++k) weights[k] = chart_barycentric(here.motion.apply(corners[k]));
+    for (int edge = 0; edge < 3; ++edge) {
+      if (map.base.twins[3 * here.chart + edge] < 0 || !crosses(weights, edge)) continue;
+      const FacePiece there = step_across(map.base, here, edge);
+      const auto known = [&](const FacePiece& p) { return same(p, there); };
+      if (pieces.size() - first >= kMaxPieces || std::any_of(pieces.begin() + first, pieces.end(), known)) continue;
+      pieces.push_back(there);
+    }
+  }
+}
+
+}  // namespace
+
+Development::Development(const Parameterization& map) : map_(map) {
+  std::vector<int> unplaced;
+  for (int f = 0; f < map.surface.face_count(); ++f)
+    if (!anchor(map, f) && depth(centroid(map.face_corners[f])) < 0.0) unplaced.push_back(f);
+  if (!unplaced.empty()) place_beside_others(std::move(unplaced));
+}
+
+void Development::place_beside_others(std::vector<int> faces) {
+  const Halfedges halfedges(map_.surface);
+  std::vector<char> open(map_.surface.faces.size(), 0);
+  for (int f : faces) open[f] = 1;
+  std::vector<FacePiece> beside;
+  // From faces that are placed into those that are not, in rounds, since such faces may touch.
+  const auto place = [&](int f) {
+    for (int h = 3 * f; h < 3 * f + 3; ++h) {
+      const int twin = halfedges.twin[h];
+      if (twin < 0 || open[twin / 3]) continue;
+      const auto &here = map_.face_corners[f], &there = map_.face_corners[twin / 3];
+      const Complex a = here[h % 3], b = here[Halfedges::next(h) % 3];
+      const auto motion = lattice_motion_within(kSamePlace, a, b, there[Halfedges::next(twin) % 3], there[twin % 3]);
+      if (!motion) continue;
+      beside.clear();
+      append(twin / 3, beside);
+      const Complex middle = 0.5 * (a + b);
+      const auto deepest = std::max_element(beside.begin(), beside.end(), [&](const FacePiece& p, const FacePiece& q) {
+        return depth((p.motion * *motion).apply(middle)) < depth((q.motion * *motion).apply(middle));
+      });
+      centre_[f] = walk_to_centroid(map_, f, {deepest->chart, f, deepest->motion * *motion}, middle);
+      open[f] = 0;
+      return true;
+    }
+    return false;
+  };
+  for (std::size_t before = faces.size() + 1; faces.size() < before;) {
+    before = faces.size();
+    std::erase_if(faces, place);
+  }
+}
+
+void Development::append(int face, std::vector<FacePiece>& pieces) const {
+  const FacePiece own{map_.face_chart[face], face, {}};
+  const auto placed = centre_.find(face);
+  pieces.push_back(
+      placed != centre_.end()
+          ? placed->second
+          : walk_to_centroid(map_, face, own, anchor(map_, face).value_or(chart_position(1.0 / 3.0, 1.0 / 3.0))));
+  flood(map_, pieces);
+}
+
+}  // namespace gsp
