@@ -2,6 +2,7 @@
 
 #include "mesh/parallel.h"
 #include "mesh/shapes.h"
+#include "param/baselines/maps.h"
 #include "param/parameterize.h"
 #include "param/simplify/simplify.h"
 #include "param/stages/smooth_levels.h"
@@ -40,9 +41,9 @@ void smooth_sphere(benchmark::State& state) {
   Progress silent;
   for (auto _ : state) {
     state.PauseTiming();
-    SimplifyResult simplified = simplify(sphere, options(), coarsest_level(*sphere, options()), silent);
+    const SimplifyResult simplified = simplify(sphere, options(), coarsest_level(*sphere, options()), silent);
     state.ResumeTiming();
-    benchmark::DoNotOptimize(smooth_levels(std::move(simplified), options(), silent));
+    benchmark::DoNotOptimize(smooth_levels(simplified, options(), silent));
   }
   state.SetItemsProcessed(state.iterations() * sphere->mesh.vertex_count());
   set_thread_count(0);
@@ -53,7 +54,7 @@ void replay_as_maps(benchmark::State& state) {
   const auto sphere = surface(state);
   Progress silent;
   const SimplifyResult simplified = simplify(sphere, options(), coarsest_level(*sphere, options()), silent);
-  for (auto _ : state) benchmark::DoNotOptimize(maps_of(simplified));
+  for (auto _ : state) benchmark::DoNotOptimize(maps_overlay(simplified));
   state.SetItemsProcessed(state.iterations() * sphere->mesh.vertex_count());
 }
 BENCHMARK(replay_as_maps)->Arg(5)->Arg(6)->Arg(7)->Unit(benchmark::kMillisecond);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iomanip>
 #include <optional>
 #include <sstream>
@@ -10,6 +11,7 @@
 
 #include "mesh/atomic_file.h"
 #include "mesh/topology.h"
+#include "param/baselines/maps.h"
 #include "param/baselines/maps_smoothing.h"
 #include "param/baselines/relax_patch_pairs.h"
 #include "param/linear/weights.h"
@@ -92,45 +94,68 @@ Mesh refined(Mesh mesh, const ParameterizeOptions& options, Progress& progress) 
   return mesh;
 }
 
-/// The map without folds, smoothed over the levels of a simplification. Where they cannot be joined the last level is
+/// A simplification of a surface in levels, the last of which starts with so many vertices.
+struct Levels {
+  std::shared_ptr<const Surface> surface;
+  int coarsest;
+  SimplifyResult simplified;
+};
+
+/// The map without folds that `make` has of the first simplification. Where its levels cannot be joined the last one is
 /// made larger, at the end as large as the surface.
-void smooth(const std::shared_ptr<const Surface>& surface, SimplifyResult simplified, int coarsest,
-            const ParameterizeOptions& options, Start& start, Progress& progress) {
-  const int whole = surface->mesh.vertex_count();
-  ParameterizeOptions smoothing = options;
-  if (options.objective == Objective::Linear) {  // it relaxes the corners of its own solution
-    smoothing.relaxations = 0;
-    smoothing.base_edges = BaseEdges::Keep;
-  }
-  for (std::optional<SimplifyResult> levels(std::move(simplified));;) {
-    start.base_vertices = remaining_vertices(*surface, levels->removals);
-    start.smooth = smooth_levels(std::move(*levels), smoothing, progress);
-    if (start.smooth && (coarsest >= whole || check_map(start.smooth->atlas.finish({})).valid())) break;
+SmoothedMap join_levels(const Levels& first, const ParameterizeOptions& options,
+                        const std::function<std::optional<SmoothedMap>(const SimplifyResult&)>& make,
+                        Progress& progress) {
+  const int whole = first.surface->mesh.vertex_count();
+  int coarsest = first.coarsest;
+  const auto joined = [&](const std::optional<SmoothedMap>& map) {
+    return map && (coarsest >= whole || check_map(map->atlas.finish({})).valid());
+  };
+  std::optional<SmoothedMap> map = make(first.simplified);
+  while (!joined(map)) {
     coarsest = std::min(whole, kLargerLevel * coarsest);
     progress.note("the levels of the map could not be joined; the last one starts with " + std::to_string(coarsest) +
                   " vertices instead");
-    levels.emplace(simplify(surface, options, coarsest, progress));
+    map = make(simplify(first.surface, options, coarsest, progress));
   }
-  const int added = start.smooth->atlas.surface->mesh.vertex_count() - whole;
+  const int added = map->atlas.surface->mesh.vertex_count() - whole;
   if (added > 0) progress.note(std::to_string(added) + " vertices were added where the map needs more freedom");
+  return std::move(*map);
 }
 
-/// Simplifies the surface and makes what the methods start from. The baselines stand on the first simplification,
-/// whichever methods stand beside them.
+/// Simplifies the surface and makes what the methods start from: the baselines on the first simplification that has
+/// MAPS' map, whichever methods stand beside them.
 Start make_start(const Mesh& mesh, const std::vector<Method>& methods, const ParameterizeOptions& options,
                  Progress& progress) {
   const auto surface = std::make_shared<const Surface>(refined(mesh, options, progress));
   const auto smooth_ones = std::count(methods.begin(), methods.end(), Method::Gsp);
   const int coarsest = coarsest_level(*surface, options);
-  SimplifyResult simplified = simplify(surface, options, coarsest, progress);
+  const Levels levels{surface, coarsest, simplify(surface, options, coarsest, progress)};
   Start start;
-  start.omega = simplified.omega;
-  if (const auto left = static_cast<int>(remaining_vertices(*surface, simplified.removals).size());
+  start.omega = levels.simplified.omega;
+  if (const auto left = static_cast<int>(remaining_vertices(*surface, levels.simplified.removals).size());
       options.base_vertices > 0 && left > options.base_vertices)
     progress.note("no further vertex can be removed: the base has " + std::to_string(left) + " vertices instead of " +
                   std::to_string(options.base_vertices));
-  if (smooth_ones < static_cast<int>(methods.size())) start.maps = maps_of(simplified);
-  if (smooth_ones > 0) smooth(surface, std::move(simplified), coarsest, options, start, progress);
+  if (smooth_ones < static_cast<int>(methods.size())) {
+    const auto make = [](const SimplifyResult& simplified) -> std::optional<SmoothedMap> {
+      const std::optional<OverlayMap> maps = maps_overlay(simplified);
+      if (!maps) return std::nullopt;
+      return SmoothedMap{maps->coarsened().atlas, {}};
+    };
+    start.maps = join_levels(levels, options, make, progress).atlas;
+  }
+  if (smooth_ones == 0) return start;
+  ParameterizeOptions smoothing = options;
+  if (options.objective == Objective::Linear) {  // it relaxes the corners of its own solution
+    smoothing.relaxations = 0;
+    smoothing.base_edges = BaseEdges::Keep;
+  }
+  const auto make = [&](const SimplifyResult& simplified) {
+    start.base_vertices = remaining_vertices(*surface, simplified.removals);
+    return smooth_levels(simplified, smoothing, progress);
+  };
+  start.smooth = join_levels(levels, options, make, progress);
   return start;
 }
 
@@ -155,8 +180,9 @@ ParameterizeResult finish(const Mesh& input, const Start& start, Method method, 
     if (!check.valid()) {
       std::ostringstream why;
       why << "the map is not valid: " << check.flipped_faces << " flipped faces, " << check.wrong_angle_vertices
-          << " vertices with a wrong angle, " << check.mismatched_edges << " mismatched edges, " << check.torn_edges << " torn edges, "
-          << check.misplaced_vertices << " vertices outside their chart, relative area error " << check.area_error;
+          << " vertices with a wrong angle, " << check.mismatched_edges << " mismatched edges, " << check.torn_edges
+          << " torn edges, " << check.misplaced_vertices << " vertices outside their chart, relative area error "
+          << check.area_error;
       throw Error(Cause::InvalidMap, why.str());
     }
   }

@@ -22,8 +22,8 @@ struct ParameterizeResult {
 };
 
 /// Computes a globally smooth parameterization of a manifold surface, or a baseline. For Method::Gsp the result is
-/// always valid in the sense of `check_map`, or it throws. Baselines may hold flipped faces, as published.
-/// Throws Error: the refusals of topology.h, BadOption, InvalidMap, SolverFailed, Cancelled.
+/// always valid in the sense of `check_map`, or it throws. Those of Method::MapsSmoothed and Hybrid may hold flipped
+/// faces, as published. Throws Error: the refusals of topology.h, BadOption, InvalidMap, SolverFailed, Cancelled.
 ParameterizeResult parameterize(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress);
 
 /// The same for several methods on one base complex: options.method is ignored.

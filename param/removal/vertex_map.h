@@ -4,17 +4,15 @@
 #include <vector>
 
 #include "param/atlas/atlas.h"
-#include "param/removal/edge_paths.h"
 #include "param/removal/removal_cost.h"
 #include "param/removal/triangle_complex.h"
 
 namespace gsp {
 
-/// The surface's map onto the shrinking complex T^i of §3.1: a homeomorphism up to the straightening of edges.
+/// Where the surface's vertices lie on the shrinking complex T^i of §3.1, as MAPS carries them.
 class VertexMap {
  public:
-  /// `classify`: whether to follow the edges too, which `atlas` needs.
-  VertexMap(std::shared_ptr<const Surface> surface, bool classify);
+  explicit VertexMap(std::shared_ptr<const Surface> surface);
 
   const Surface& surface() const { return *surface_; }
   const TriangleComplex& complex() const { return complex_; }
@@ -25,23 +23,11 @@ class VertexMap {
   /// Fills the hole of the removed vertex; the points of its star move to where `flatten_star` puts them.
   void remove(const Removal& removal);
 
-  /// The map onto the present complex with every edge classified. O(V).
-  Atlas atlas() const;
-
  private:
-  struct Numbering {
-    std::vector<int> face_of;  ///< slot -> base face, -1
-    std::vector<int> slot_of;  ///< base face -> slot
-  };
-  Numbering number_triangles() const;
-  Transition edge_transition(const Atlas& atlas, const Numbering& numbering, int edge) const;
-
   std::shared_ptr<const Surface> surface_;
-  bool classify_;
   TriangleComplex complex_;
   std::vector<Location> locations_;
   std::vector<std::vector<int>> points_;
-  EdgePaths paths_;
 
   Star star_;  // of the removal in hand
   std::vector<Complex> ring_;

@@ -16,8 +16,9 @@ constexpr int kFewVertices = 16;  // and as many for so many more: twice a usual
 
 }  // namespace
 
-OverlayMap::OverlayMap(std::shared_ptr<const Surface> surface)
+OverlayMap::OverlayMap(std::shared_ptr<const Surface> surface, Winding winding)
     : surface_(std::move(surface)),
+      winding_(winding),
       complex_(*surface_),
       refined_(std::make_unique<RefinedSurface>(surface_)),
       region_(*refined_),
@@ -147,7 +148,7 @@ bool OverlayMap::winds() const {
 bool OverlayMap::remove(const Removal& removal) {
   const Backup backup = lay_out(removal.vertex);
   region_.relax();
-  bool possible = cut_all(removal) && !winds();
+  bool possible = cut_all(removal) && (winding_ == Winding::Allowed || !winds());
   if (possible) {
     if (star_.boundary) straighten_boundary();
     region_.relax();
@@ -240,10 +241,10 @@ Atlas OverlayMap::atlas_on(const RefinedSurface::Compact& compact) const {
   return atlas;
 }
 
-EditableAtlas OverlayMap::coarsened() && {
+EditableAtlas OverlayMap::coarsened() const {
   RefinedSurface::Compact compact = refined_->compact();
   Atlas atlas = atlas_on(compact);
-  return coarsen({std::move(*refined_), std::move(atlas), std::move(compact.vertex), std::move(compact.halfedge)});
+  return coarsen({*refined_, std::move(atlas), std::move(compact.vertex), std::move(compact.halfedge)});
 }
 
 }  // namespace gsp

@@ -20,10 +20,14 @@ namespace gsp {
 /// drawn straight.
 class OverlayMap {
  public:
-  explicit OverlayMap(std::shared_ptr<const Surface> surface);
+  /// Whether a removal may leave far more pieces than the surface has vertices there. A simplification refuses it, and
+  /// takes another one: around a small handle edges of the complex could come to wind about it, once more each time.
+  enum class Winding { Refused, Allowed };
+
+  explicit OverlayMap(std::shared_ptr<const Surface> surface, Winding winding = Winding::Refused);
 
   /// Fills the hole of the removed vertex. False, and nothing is changed, where a piece of the star would be too small
-  /// for rounding, or where the edges of the complex would wind about a handle.
+  /// for rounding, or where the edges of the complex would wind and must not.
   bool remove(const Removal& removal);
 
   const std::shared_ptr<const Surface>& surface() const { return surface_; }
@@ -34,7 +38,7 @@ class OverlayMap {
   const RefinedSurface& refined() const { return *refined_; }
 
   /// The same without the added vertices that the map does not need (`gsp::coarsen`).
-  EditableAtlas coarsened() &&;
+  EditableAtlas coarsened() const;
 
  private:
   /// Where a vertex lies on the complex: in a triangle, on an edge between two of its vertices, or at one.
@@ -64,6 +68,7 @@ class OverlayMap {
   bool fill(int slot, const RingTriangle& triangle);
 
   std::shared_ptr<const Surface> surface_;
+  const Winding winding_;
   TriangleComplex complex_;
   std::unique_ptr<RefinedSurface> refined_;  ///< where it is known to `region_`
   PlanarRegion region_;

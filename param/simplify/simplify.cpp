@@ -50,7 +50,7 @@ class Simplifier {
       : surface_(surface),
         options_(options),
         progress_(progress),
-        map_(surface, false),
+        map_(surface),
         start_(used_vertices(*surface)),
         stop_(start_),
         remaining_(start_),
@@ -301,18 +301,6 @@ std::vector<int> remaining_vertices(const Surface& surface, const RemovalScript&
   for (std::size_t v = 0; v < removed.size(); ++v)
     if (!removed[v] && surface.halfedges.outgoing[v] >= 0) remaining.push_back(static_cast<int>(v));
   return remaining;
-}
-
-Atlas maps_of(const SimplifyResult& simplified) {
-  VertexMap map((simplified.finer.empty() ? simplified.map->surface() : simplified.finer.front().surface), true);
-  Star star;
-  Removal removal;
-  for (int i = 0; i < simplified.removals.size(); ++i) {
-    map.complex().gather(simplified.removals.vertex(i), star);
-    simplified.removals.place(i, star, removal);
-    map.remove(removal);
-  }
-  return map.atlas();
 }
 
 }  // namespace gsp

@@ -32,7 +32,11 @@ struct SimplifyResult {
   std::vector<RemovalRecord> finer;  ///< finest first
   std::optional<OverlayMap> map;     ///< of what they left onto the base
   RemovalScript removals;            ///< by vertices of the finest surface
-  std::vector<OmegaRecord> omega;    ///< one record per removal, in order; then of that at which the automatic stop was
+  /// The finest one, which was simplified.
+  const std::shared_ptr<const Surface>& surface() const {
+    return finer.empty() ? map->surface() : finer.front().surface;
+  }
+  std::vector<OmegaRecord> omega;  ///< one record per removal, in order; then of that at which the automatic stop was
 };
 
 /// Builds the base complex by greedy vertex removal (§3.1), carrying the map. Stops at options.base_vertices, or where
@@ -48,8 +52,5 @@ int coarsest_level(const Surface& surface, const ParameterizeOptions& options);
 
 /// The vertices of the surface that the removals leave, in order.
 std::vector<int> remaining_vertices(const Surface& surface, const RemovalScript& removals);
-
-/// The same removals with the map of the vertices alone, as MAPS carries it.
-Atlas maps_of(const SimplifyResult& simplified);
 
 }  // namespace gsp

@@ -71,14 +71,13 @@ void smooth_finer(EditableAtlas& map, const ParameterizeOptions& options, Progre
 
 }  // namespace
 
-std::optional<SmoothedMap> smooth_levels(SimplifyResult simplified, const ParameterizeOptions& options,
+std::optional<SmoothedMap> smooth_levels(const SimplifyResult& simplified, const ParameterizeOptions& options,
                                          Progress& progress) {
-  EditableAtlas map = std::move(*simplified.map).coarsened();
+  EditableAtlas map = simplified.map->coarsened();
   map.atlas.reassign_all();
-  std::vector<RemovalRecord>& finer = simplified.finer;
-  const SmoothingRecord record = smooth_coarsest(map, options, finer.empty(), progress);
-  for (; !finer.empty(); finer.pop_back()) {
-    std::optional<EditableAtlas> more = reinsert(finer.back(), map);
+  const SmoothingRecord record = smooth_coarsest(map, options, simplified.finer.empty(), progress);
+  for (auto level = simplified.finer.rbegin(); level != simplified.finer.rend(); ++level) {
+    std::optional<EditableAtlas> more = reinsert(*level, map);
     if (!more) return std::nullopt;
     map = std::move(*more);
     smooth_finer(map, options, progress);

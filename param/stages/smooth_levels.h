@@ -13,7 +13,7 @@ namespace gsp {
 /// `options.relaxations` times on the coarsest level; on every finer one the corners are moved once. The energy knows
 /// nothing of patches, so its minimiser is as smooth across their edges as within them. Nothing where one level's map
 /// could not be followed by the next for rounding. Throws Error(Cancelled).
-std::optional<SmoothedMap> smooth_levels(SimplifyResult simplified, const ParameterizeOptions& options,
+std::optional<SmoothedMap> smooth_levels(const SimplifyResult& simplified, const ParameterizeOptions& options,
                                          Progress& progress);
 
 }  // namespace gsp

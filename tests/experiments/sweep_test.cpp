@@ -282,6 +282,32 @@ TEST_CASE("sweeps killed at fifty random moments end with the same database and 
   CHECK(done >= 2);
 }
 
+TEST_CASE(
+    "a baseline's map is the same bytes alone, beside the other methods, and in a sweep that finds gsp's map done") {
+  const std::string all = "method = [\"gsp\", \"maps\", \"maps-smoothed\", \"hybrid\"]\n";
+  const auto maps_of = [&](const std::vector<std::string>& runs) {
+    const Study study;
+    write_mesh(study.file("open.ply"), shapes::grid(16, 12, 0.1));
+    std::map<std::string, std::string> maps;
+    for (const std::string& run : runs)
+      for (const StoredCell& cell : study.run(run, "open.ply").cells)
+        maps[cell.options.method] = read_file(cell.artefact("map"));
+    return maps;
+  };
+  const auto beside = maps_of({all});
+  CHECK(beside.size() == 4);
+  CHECK(maps_of({"method = \"gsp\"\n", all}) == beside);
+  CHECK(maps_of({"method = \"hybrid\"\n", "method = \"maps-smoothed\"\n", "method = \"maps\"\n",
+                 "method = \"gsp\"\n"}) == beside);
+}
+
+TEST_CASE("hybrid cells of one recipe that differ in weights have different maps") {
+  const Study study;
+  const SweepResult result = study.run("method = \"hybrid\"\nweights = [\"mean-value\", \"uniform\"]\n", "bumpy.ply");
+  REQUIRE(result.cells.size() == 2);
+  CHECK(read_file(result.cells[0].artefact("map")) != read_file(result.cells[1].artefact("map")));
+}
+
 TEST_CASE("what differs from model to model only is no part of a label, so that curves compare across models") {
   const Study study;
   const auto labels = [&](const std::string& models) {

@@ -22,7 +22,7 @@ TEST_CASE("vertices put back leave a map free of folds, from whatever level and 
       SimplifyResult made = simplify(surface, options, level, progress);
       REQUIRE(!made.finer.empty());
       const std::size_t remaining = remaining_vertices(*surface, made.removals).size();
-      std::optional<EditableAtlas> map = std::move(*made.map).coarsened();
+      std::optional<EditableAtlas> map = made.map->coarsened();
       for (; !made.finer.empty(); made.finer.pop_back()) {
         const RemovalRecord& decimation = made.finer.back();
         const EditableAtlas before = *map;
@@ -44,7 +44,7 @@ TEST_CASE("the faces that are put back are the surface's own, corner by corner")
   options.base_vertices = 20;
   Progress progress;
   SimplifyResult made = simplify(std::make_shared<const Surface>(mesh), options, 200, progress);
-  EditableAtlas map = std::move(*made.map).coarsened();
+  EditableAtlas map = made.map->coarsened();
   for (; !made.finer.empty(); made.finer.pop_back()) map = *reinsert(made.finer.back(), map);
   const Mesh& made_again = map.atlas.surface->mesh;
   int whole = 0;
