@@ -120,13 +120,13 @@ void check_positions(const Parameterization& map, MapCheck& check) {
 
 /// Where a point of a face lies: the base face, by the piece of the face that holds it best, and the place in its
 /// chart.
-struct Place {
+struct ChartPlace {
   int chart;
   Complex at;
 };
 
-Place place_of(const std::vector<FacePiece>& pieces, Complex z) {
-  Place best{-1, {}};
+ChartPlace place_of(const std::vector<FacePiece>& pieces, Complex z) {
+  ChartPlace best{-1, {}};
   double deepest = 0.0;
   for (const FacePiece& piece : pieces) {
     const Complex at = piece.motion.apply(z);
@@ -140,7 +140,7 @@ Place place_of(const std::vector<FacePiece>& pieces, Complex z) {
 }
 
 /// Whether two places are the same point, which an edge of the base may lie between.
-bool same_place(const BaseComplex& base, const Place& a, const Place& b) {
+bool same_place(const BaseComplex& base, const ChartPlace& a, const ChartPlace& b) {
   if (a.chart == b.chart && std::abs(a.at - b.at) <= kTolerance) return true;
   for (int h = 3 * a.chart; h < 3 * a.chart + 3; ++h)
     if (base.twins[h] >= 0 && base.twins[h] / 3 == b.chart && std::abs(base.across(h).apply(a.at) - b.at) <= kTolerance)
