@@ -87,7 +87,7 @@ TEST_CASE("what a reader leaves out is said by info, and by what works on the su
   const TemporaryFolder folder;
   const std::string path = write(folder, "a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nl 1 3\nhello\n");
   CHECK(info(path)["notes"].size() == 2);
-  const Ran distance = gsp_run({"distance", path, path, "--samples", "100"});
+  const Ran distance = gsp_run({"distance", path, path, "--samples", "1000"});
   CHECK(distance.status == 0);
   CHECK(contains(distance.err, "unknown keyword"));
   const Ran curve = gsp_run({"curve", path, "-o", folder.file("out"), "--no-anchors", "--budgets", "100"});

@@ -141,7 +141,7 @@ TEST_CASE("bounds are the same for one and two threads, and stay true where piec
 }
 
 TEST_CASE("where no more pieces may wait, the bounds are wider and still enclose") {
-  const Mesh inner = shapes::sphere(2, 1.0), outer = shapes::torus(24, 12);
+  const Mesh inner = shapes::sphere(1, 1.0), outer = shapes::sphere(4, 1.0);
   HausdorffOptions roomy, narrow;
   roomy.tolerance = narrow.tolerance = 1e-4;
   narrow.most_waiting = 8;

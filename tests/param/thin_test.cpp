@@ -6,7 +6,7 @@
 #include "mesh/topology.h"
 #include "param/atlas/split_edges.h"
 #include "param/parameterize.h"
-#include "thin_shapes.h"
+#include "tests/support/thin_shapes.h"
 
 using namespace gsp;
 

@@ -1,4 +1,4 @@
-#include "thin_shapes.h"
+#include "tests/support/thin_shapes.h"
 
 #include <cmath>
 #include <numbers>
