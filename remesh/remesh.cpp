@@ -8,9 +8,9 @@
 
 #include "mesh/error.h"
 #include "mesh/parallel.h"
+#include "param/map/development.h"
 #include "remesh/chart_samples.h"
 #include "remesh/closest_fit.h"
-#include "param/map/development.h"
 #include "remesh/fit_positions.h"
 
 namespace gsp {
