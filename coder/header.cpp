@@ -95,12 +95,10 @@ Bytes write_header(const StreamHeader& header, const Bytes& connectivity) {
   for (std::int64_t o : header.origin) put_varint(rest, zigzag(o));
   rest.insert(rest.end(), connectivity.begin(), connectivity.end());
 
-  Bytes sized;
-  put_varint(sized, rest.size());
-  sized.insert(sized.end(), rest.begin(), rest.end());
-  Bytes bytes(kChecksumEnd);
-  std::copy(kMagic.begin(), kMagic.end(), bytes.begin());
-  bytes.insert(bytes.end(), sized.begin(), sized.end());
+  Bytes bytes(kMagic.begin(), kMagic.end());
+  bytes.resize(kChecksumEnd);
+  put_varint(bytes, rest.size());
+  bytes.insert(bytes.end(), rest.begin(), rest.end());
   seal_header(bytes);
   return bytes;
 }
