@@ -13,7 +13,7 @@
 #include "coder/edge_forest.h"
 #include "coder/header.h"
 #include "coder/importance.h"
-#include "coder/local_frames.h"
+#include "remesh/filters/local_frames.h"
 #include "coder/precision.h"
 #include "coder/quantizer.h"
 #include "coder/rate_distortion.h"

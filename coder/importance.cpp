@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "coder/bitplane_coder.h"
-#include "coder/local_frames.h"
+#include "remesh/filters/local_frames.h"
 
 namespace gsp {
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "mesh/parallel.h"
+
 namespace gsp {
 
 namespace {
@@ -80,31 +82,54 @@ bool crosses(const std::array<Weights, 3>& corners, int edge) {
   return farthest < -kReach && std::min(high, 1.0) - std::max(low, 0.0) > kReach;
 }
 
+/// Faces unfolded at a time by one thread.
+constexpr std::size_t kBlock = 4096;
+
 bool same(const FacePiece& a, const FacePiece& b) { return a.chart == b.chart && a.motion == b.motion; }
 
 }  // namespace
 
-void develop_face(const Parameterization& map, int face, std::vector<FacePiece>& pieces) {
-  const auto& corners = map.face_corners[face];
-  const int chart = map.face_chart[face];
+void develop_triangle(const BaseComplex& base, int face, int chart, Complex start,
+                      const std::array<Complex, 3>& corners, std::vector<FacePiece>& pieces) {
   const std::size_t first = pieces.size();
   const Complex centroid = (corners[0] + corners[1] + corners[2]) / 3.0;
-  const Complex start = anchor(map, face).value_or(chart_position(1.0 / 3.0, 1.0 / 3.0));
-  const Stand stand = walk(map.base, chart, start, centroid);
+  const Stand stand = walk(base, chart, start, centroid);
   pieces.push_back({stand.chart, face, stand.motion});
   for (std::size_t at = first; at < pieces.size(); ++at) {
     const FacePiece here = pieces[at];
     std::array<Weights, 3> weights;
     for (int k = 0; k < 3; ++k) weights[k] = chart_barycentric(here.motion.apply(corners[k]));
     for (int edge = 0; edge < 3; ++edge) {
-      if (map.base.twins[3 * here.chart + edge] < 0 || !crosses(weights, edge)) continue;
-      const Stand next = step_across(map.base, {here.chart, here.motion}, edge);
+      if (base.twins[3 * here.chart + edge] < 0 || !crosses(weights, edge)) continue;
+      const Stand next = step_across(base, {here.chart, here.motion}, edge);
       const FacePiece there{next.chart, face, next.motion};
       const auto known = [&](const FacePiece& p) { return same(p, there); };
       if (pieces.size() - first >= kMaxPieces || std::any_of(pieces.begin() + first, pieces.end(), known)) continue;
       pieces.push_back(there);
     }
   }
+}
+
+void develop_face(const Parameterization& map, int face, std::vector<FacePiece>& pieces) {
+  const Complex start = anchor(map, face).value_or(chart_position(1.0 / 3.0, 1.0 / 3.0));
+  develop_triangle(map.base, face, map.face_chart[face], start, map.face_corners[face], pieces);
+}
+
+std::vector<std::vector<FacePiece>> pieces_by_chart(const Parameterization& map) {
+  const std::size_t faces = map.surface.faces.size();
+  std::vector<std::vector<FacePiece>> blocks((faces + kBlock - 1) / kBlock);
+  parallel_for(faces, kBlock, [&](std::size_t begin, std::size_t end) {
+    std::vector<FacePiece>& pieces = blocks[begin / kBlock];
+    for (std::size_t f = begin; f < end; ++f) develop_face(map, static_cast<int>(f), pieces);
+  });
+  std::vector<int> count(map.base.faces.size(), 0);
+  for (const auto& block : blocks)
+    for (const FacePiece& piece : block) ++count[piece.chart];
+  std::vector<std::vector<FacePiece>> charts(map.base.faces.size());
+  for (std::size_t c = 0; c < charts.size(); ++c) charts[c].reserve(count[c]);
+  for (const auto& block : blocks)
+    for (const FacePiece& piece : block) charts[piece.chart].push_back(piece);
+  return charts;
 }
 
 }  // namespace gsp
