@@ -5,6 +5,8 @@
 #include "cli/print.h"
 #include "mesh/io.h"
 #include "mesh/topology.h"
+#include "remesh/filters/normal_share.h"
+#include "remesh/semiregular_file.h"
 
 namespace gsp::cli {
 
@@ -39,6 +41,20 @@ Json topology(const Mesh& mesh, const TopologyReport& report) {
           {"component_list", components}};
 }
 
+// Of a remesh, how many of its vertices one number gives.
+Json levels(const std::string& path) {
+  const SemiregularMesh mesh = read_semiregular(path);
+  const NormalShare share = normal_share(mesh);
+  return {{"level", mesh.level},
+          {"base_vertices", mesh.base_vertices},
+          {"base_faces", mesh.base_faces.size()},
+          {"vertices_above_base", share.vertices},
+          {"normal_vertices", share.normal},
+          {"normal_exceptions", share.exceptions},
+          {"boundary_vertices", share.boundary},
+          {"normal_percent", share.percent()}};
+}
+
 // A file that cannot be read is an answer here, not a failure to give one.
 int info(const std::string& path, const Context& context) {
   Json report = {{"file", path}};
@@ -48,6 +64,7 @@ int info(const std::string& path, const Context& context) {
     const TopologyReport found = topology_report(mesh);
     report.update(topology(mesh, found));
     refusal = found.refusal;
+    if (path.ends_with(".sr.ply")) report.update(levels(path));
   } catch (const Error& error) {
     if (exit_status(error.cause()) != exit_status(Cause::CannotOpen)) throw;
     refusal = error;

@@ -86,6 +86,30 @@ std::array<std::array<int, 2>, 3> lattice_corners(int level, int index) {
   return c;
 }
 
+void require_built(const RemeshOptions& options) {
+  if (options.kind == RemeshKind::Parametric) return;
+  const std::string kind = remesh_kind_name(options.kind);
+  if (options.kind != RemeshKind::Normal)
+    throw Error(Cause::BadOption, "remeshes of kind " + kind + " are not built yet; parametric and normal ones are");
+  if (options.positions != Positions::Sampled)
+    throw Error(Cause::BadOption, "a remesh of kind " + kind + " has sampled positions only, not " +
+                                      positions_name(options.positions) + " ones");
+}
+
+SemiregularMesh normal(const Parameterization& map, const std::vector<std::vector<FacePiece>>& pieces, int level,
+                       Progress& progress) {
+  const auto levels = subdivision_levels(map.base.vertex_count(), map.base.faces, level);
+  NormalRemesh made = normal_remesh(map, pieces, levels, {}, progress);
+  const auto count = [&](VertexForm form) {
+    return std::to_string(std::count(made.forms.begin(), made.forms.end(), form));
+  };
+  progress.note(count(VertexForm::Normal) + " of " + std::to_string(made.forms.size()) +
+                " vertices above the base are normal; " + count(VertexForm::Parametric) +
+                " are where the map has them, " + count(VertexForm::Boundary) + " on the boundary");
+  progress.report("remesh", 1.0);
+  return {level, map.base.vertex_count(), map.base.faces, std::move(made.positions)};
+}
+
 /// Remeshing in progress: the finest connectivity, the positions, and what the charts found on their borders.
 class Remesher {
  public:
@@ -218,20 +242,14 @@ class Remesher {
 }  // namespace
 
 SemiregularMesh remesh(const Parameterization& map, const RemeshOptions& options, Progress& progress) {
+  require_built(options);
   require_well_formed(map);
   if (map.base.faces.empty()) throw Error(Cause::InvalidMap, "a map without base faces has nothing to remesh");
-  if (options.kind != RemeshKind::Parametric && options.kind != RemeshKind::Normal)
-    throw Error(Cause::BadOption, std::string("remeshes of kind ") + remesh_kind_name(options.kind) +
-                                      " are not built yet; parametric ones are");
   const int level = chosen_level(map, options);
   progress.report("remesh", 0.0);
   const std::vector<std::vector<FacePiece>> pieces = pieces_by_chart(map);
   progress.report("remesh", 0.3);
-  if (options.kind == RemeshKind::Normal) {
-    const std::vector<SubdivisionLevel> levels = subdivision_levels(map.base.vertex_count(), map.base.faces, level);
-    NormalRemesh normal = normal_remesh(map, pieces, levels, progress);
-    return {level, map.base.vertex_count(), map.base.faces, std::move(normal.positions)};
-  }
+  if (options.kind == RemeshKind::Normal) return normal(map, pieces, level, progress);
   Remesher remesher(map, level, options.positions);
   parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) remesher.sample_chart(static_cast<int>(c), pieces[c]);

@@ -12,10 +12,6 @@ namespace gsp {
 
 namespace {
 
-/// Farthest place from the middle of an edge: over the edge's length in the domain, and over that of base edges. Wider
-/// ones leave fewer exceptions, but spread the vertices less evenly than the map does (bench/README.md, Normal
-/// remeshes).
-constexpr double kAperture = 0.1, kFarthest = 0.01;
 /// Least area of a triangle of the domain, over the quarter of its parent's that it has where all vertices are at the
 /// middles of edges.
 constexpr double kUpright = 0.1;
@@ -25,7 +21,7 @@ constexpr std::size_t kGrain = 256;
 /// One level's new vertices in progress: those that a normal offers, and the middles instead.
 class Insertion {
  public:
-  Insertion(const ChartIndex& index, const RemeshDomain& domain, const std::vector<Vec3>& positions)
+  Insertion(const ChartIndex& index, const RemeshDomain& domain, const std::vector<Vec3>& positions, double aperture)
       : index_(index), domain_(domain), level_(domain.connectivity()), reach_(domain), hits_(level_.edges.size()) {
     std::vector<Vec3> predicted(level_.vertex_count + level_.edges.size(), Vec3::Zero());
     butterfly_low_pass(level_)->add(positions.data(), predicted.data());
@@ -38,8 +34,8 @@ class Insertion {
         middles_[e] = 0.5 * (a + b);
         if (boundary(e)) continue;
         const Line line = {predicted[level_.vertex_count + e], frames(e).col(0)};
-        hits_[e] =
-            nearest_hit(index, domain, reach_, e, line, middles_[e], std::min(kAperture * std::abs(b - a), kFarthest));
+        hits_[e] = nearest_hit(index, domain, reach_, e, line, middles_[e],
+                               std::min(aperture * std::abs(b - a), 0.1 * aperture));
       }
     });
   }
@@ -128,14 +124,15 @@ class Insertion {
 }  // namespace
 
 NormalRemesh normal_remesh(const Parameterization& map, const std::vector<std::vector<FacePiece>>& pieces,
-                           const std::vector<SubdivisionLevel>& levels, Progress& progress) {
+                           const std::vector<SubdivisionLevel>& levels, const NormalOptions& options,
+                           Progress& progress) {
   const ChartIndex index(map, pieces);
   NormalRemesh result{{}, RemeshDomain(map.base, levels), {}};
   for (int v : map.base.vertices) result.positions.push_back(map.surface.positions[v]);
   const double faces = static_cast<double>(levels.back().faces.size());
   for (std::size_t l = 0; l + 1 < levels.size(); ++l) {
     progress.report("normal remesh", static_cast<double>(levels[l].faces.size()) / faces);
-    Insertion insertion(index, result.domain, result.positions);
+    Insertion insertion(index, result.domain, result.positions, options.aperture);
     insertion.keep_upright();
     std::vector<DomainVertex> places;
     insertion.finish(result.positions, result.forms, places);

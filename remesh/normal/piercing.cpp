@@ -51,7 +51,7 @@ std::optional<std::array<double, 3>> pierce(const Line& line, const std::array<V
   return w;
 }
 
-FaceReach::FaceReach(const RemeshDomain& domain) : begin_{0} {
+FaceReach::FaceReach(const RemeshDomain& domain) : begin_(domain.connectivity().faces.size() + 1, 0) {
   constexpr std::size_t kBlock = 1024;
   const std::size_t faces = domain.connectivity().faces.size(), blocks = (faces + kBlock - 1) / kBlock;
   std::vector<std::vector<FacePiece>> pieces(blocks);
@@ -61,7 +61,6 @@ FaceReach::FaceReach(const RemeshDomain& domain) : begin_{0} {
       pieces[begin / kBlock].insert(pieces[begin / kBlock].end(), of_face.begin(), of_face.end());
     }
   });
-  begin_.assign(faces + 1, 0);
   for (const std::vector<FacePiece>& block : pieces)
     for (const FacePiece& piece : block) {
       ++begin_[piece.face + 1];

@@ -10,6 +10,7 @@
 #include "mesh/shapes.h"
 #include "remesh/filters/butterfly_low_pass.h"
 #include "remesh/filters/local_frames.h"
+#include "remesh/filters/normal_share.h"
 #include "remesh/normal/piercing.h"
 #include "tests/support/exact_maps.h"
 
@@ -23,9 +24,9 @@ struct Normal {
   std::vector<SubdivisionLevel> levels;
   NormalRemesh mesh;
 
-  Normal(const Parameterization& map, int level)
+  Normal(const Parameterization& map, int level, double aperture = NormalOptions().aperture)
       : levels(subdivision_levels(map.base.vertex_count(), map.base.faces, level)),
-        mesh(normal_remesh(map, pieces_by_chart(map), levels, progress)) {}
+        mesh(normal_remesh(map, pieces_by_chart(map), levels, {aperture}, progress)) {}
 
   int count(VertexForm form) const { return static_cast<int>(std::count(mesh.forms.begin(), mesh.forms.end(), form)); }
   /// Of all vertices above the base, in the frames that a decoder of the levels has.
@@ -158,7 +159,7 @@ TEST_CASE("a line meets one of two triangles at an edge, from behind only") {
 
 TEST_CASE("a plane's normal remesh has no details") {
   const Parameterization map = mapped(shapes::grid(3, 3), 2, [](const Vec3& p) { return p; });
-  const Normal remesh(map, 4);
+  const Normal remesh(map, 4, 1.0);
   CHECK(remesh.count(VertexForm::Parametric) == 0);
   CHECK(remesh.count(VertexForm::Boundary) == 4 * 3 * 15);
   const std::vector<Vec3> details = remesh.details();
@@ -169,9 +170,9 @@ TEST_CASE("a plane's normal remesh has no details") {
 
 TEST_CASE("all vertices of a normal remesh of a sphere and a torus are normal, on the surface, and upright") {
   for (const bool torus : {false, true}) {
-    const Parameterization map = torus ? mapped(shapes::lattice_torus(9, 5), 2, on_torus, 0.02)
-                                       : mapped(shapes::icosahedron(), 3, on_sphere, 0.02);
-    const Normal remesh(map, 3);
+    const Parameterization map =
+        torus ? mapped(shapes::lattice_torus(24, 12), 2, on_torus, 0.1) : mapped(shapes::icosahedron(), 3, on_sphere);
+    const Normal remesh(map, torus ? 2 : 3, 1.0);
     CHECK(remesh.count(VertexForm::Normal) == static_cast<int>(remesh.mesh.forms.size()));
     for (const Vec3& detail : remesh.details()) CHECK(detail.tail<2>().norm() < 1e-14);
     check_upright(map, remesh);
@@ -202,6 +203,21 @@ TEST_CASE("between sheets and on rough ground no face of a normal remesh folds, 
     check_upright(map, remesh);
   }
   CHECK(exceptions > 0);
+}
+
+TEST_CASE("a file's normal share is what the remesher took") {
+  const Parameterization map = mapped(shapes::tetrahedron(), 3, [](const Vec3& p) {
+    return Vec3(on_sphere(p) * (1.0 + 0.2 * std::sin(5.0 * p.x()) * std::cos(7.0 * p.y())));
+  });
+  const Normal remesh(map, 4);
+  const NormalShare share = normal_share({4, map.base.vertex_count(), map.base.faces, remesh.mesh.positions});
+  CHECK(share.vertices == static_cast<int>(remesh.mesh.forms.size()));
+  CHECK(share.normal == remesh.count(VertexForm::Normal));
+  CHECK(share.exceptions == remesh.count(VertexForm::Parametric));
+  CHECK(share.exceptions > 0);
+  CHECK(share.boundary == 0);
+  const Parameterization open = mapped(shapes::grid(3, 3), 2, [](const Vec3& p) { return p; });
+  CHECK(normal_share({2, 16, open.base.faces, Normal(open, 2).mesh.positions}).boundary == 4 * 3 * 3);
 }
 
 TEST_CASE("a normal remesh is the same bits on one thread and on two") {
