@@ -19,6 +19,7 @@ namespace gsp {
 namespace {
 
 constexpr std::size_t kMostCells = 100000;
+constexpr const char* kReplicates = "replicates";
 
 long long line_of(const toml::node& node) { return node.source().begin.line; }
 
@@ -118,6 +119,7 @@ struct Layers {
   const toml::table* own;
   const toml::table* block;
   const toml::table& file;
+  std::optional<int> replicates = {};  ///< instead of those that a key asks for
 
   const toml::node* get(const std::string& key) const {
     for (const toml::table* table : {own, block})
@@ -127,7 +129,7 @@ struct Layers {
 };
 
 void require_known_keys(const toml::table& table, const std::vector<std::string>& further) {
-  std::vector<std::string> known = {"budgets", "preset"};
+  std::vector<std::string> known = {"budgets", "preset", kReplicates};
   known.insert(known.end(), further.begin(), further.end());
   for (const Axis& axis : axes()) known.emplace_back(axis.name);
   for (const auto& [key, value] : table) {
@@ -269,6 +271,29 @@ std::vector<ParameterizeOptions> presets(const Layers& layers) {
   return found;
 }
 
+// 0 to N - 1, from replicates = N.
+std::vector<AxisValue> replicates(const Axis& axis, const Layers& layers) {
+  std::int64_t count = layers.replicates.value_or(0);
+  if (!layers.replicates) {
+    const toml::node& node = *layers.get(kReplicates);
+    if (layers.get(axis.name))
+      refuse(fmt::format("{} = N stands for {} = 0 to N - 1: give one of them", kReplicates, axis.name), line_of(node));
+    count = node.is_integer() ? node.ref<std::int64_t>() : 0;
+    if (count < 1 || count > kMostReplicates)
+      refuse(fmt::format("{} is no integer of 1 to {}", kReplicates, kMostReplicates), line_of(node));
+  }
+  std::vector<AxisValue> values;
+  for (std::int64_t i = 0; i < count; ++i) values.emplace_back(i);
+  return values;
+}
+
+// The values that the keys give an axis; empty where they do not name it.
+std::vector<AxisValue> values_of(const Axis& axis, const Layers& layers) {
+  if (axis.repeats && (layers.replicates || layers.get(kReplicates))) return replicates(axis, layers);
+  const toml::node* node = layers.get(axis.name);
+  return node ? AxisReader(axis, *node).values : std::vector<AxisValue>();
+}
+
 // All combinations, the first axis varying slowest; those that differ only in what does not apply are one.
 std::vector<CellOptions> combinations(const Layers& layers, long long line) {
   std::vector<CellOptions> cells;
@@ -278,9 +303,8 @@ std::vector<CellOptions> combinations(const Layers& layers, long long line) {
     cell.budgets = budgets(layers);
   }
   for (const Axis& axis : axes()) {
-    const toml::node* node = layers.get(axis.name);
-    if (!node) continue;
-    const std::vector<AxisValue> values = AxisReader(axis, *node).values;
+    const std::vector<AxisValue> values = values_of(axis, layers);
+    if (values.empty()) continue;
     if (cells.size() * values.size() > kMostCells) refuse(fmt::format("more than {} cells", kMostCells), line);
     std::vector<CellOptions> product;
     for (const CellOptions& cell : cells)
@@ -309,7 +333,8 @@ toml::table parse(const std::string& path) {
 
 // The cells of one block; surfaces that follow each other with the same keys share a RecipeBlock.
 void add_block(Recipe& recipe, const toml::table* block, const toml::table& file, long long line,
-               const std::vector<std::string>& instead) {
+               const RecipeOverrides& overrides) {
+  const std::vector<std::string>& instead = overrides.models;
   const std::vector<ModelEntry> entries = model_entries(block, file);
   if (entries.empty() && instead.empty())
     refuse("there are no models: models = [\"data/*.ply\", \"shape:torus\"]", line);
@@ -318,18 +343,18 @@ void add_block(Recipe& recipe, const toml::table* block, const toml::table& file
   const toml::table* own = nullptr;
   for (const ModelSource& surface : surfaces) {
     if (&surface == &surfaces.front() || surface.own != own)
-      recipe.blocks.push_back({{}, combinations({surface.own, block, file}, line)});
+      recipe.blocks.push_back({{}, combinations({surface.own, block, file, overrides.replicates}, line)});
     own = surface.own;
     recipe.blocks.back().models.push_back(surface.source);
   }
 }
 
-Recipe recipe_of(const toml::table& file, const std::string& otherwise, const std::vector<std::string>& instead) {
+Recipe recipe_of(const toml::table& file, const std::string& otherwise, const RecipeOverrides& overrides) {
   Recipe recipe;
   recipe.name = text(file, "name", otherwise);
   recipe.description = text(file, "description", "");
   require_known_keys(file, {"models", "name", "description", "block"});
-  const auto add = [&](const toml::table* block, long long line) { add_block(recipe, block, file, line, instead); };
+  const auto add = [&](const toml::table* block, long long line) { add_block(recipe, block, file, line, overrides); };
   const toml::node* blocks = file.get("block");
   if (!blocks) {
     add(nullptr, 1);
@@ -347,9 +372,9 @@ Recipe recipe_of(const toml::table& file, const std::string& otherwise, const st
 
 }  // namespace
 
-Recipe read_recipe(const std::string& path, const std::vector<std::string>& models) {
+Recipe read_recipe(const std::string& path, const RecipeOverrides& overrides) {
   try {
-    return recipe_of(parse(path), stem(path), models);
+    return recipe_of(parse(path), stem(path), overrides);
   } catch (const Error& error) {
     if (error.cause() == Cause::CannotOpen) throw;
     throw error.within(path);

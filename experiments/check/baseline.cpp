@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "experiments/curve/summary.h"
 #include "experiments/store/json_file.h"
@@ -18,8 +20,9 @@ using Json = nlohmann::ordered_json;
 constexpr int kFormat = 1;
 constexpr const char* kTime = "time";
 constexpr const char* kPsnr = "psnr_db";
+constexpr const char* kBdRate = "bd_rate";
 
-// At its budgets, or at 256, 512, 1024, ...; a size beyond the whole stream has the whole stream's.
+// At the cell's budgets, or at 256, 512, 1024, ...; a size beyond the whole stream has the whole stream's.
 std::vector<std::size_t> rates(const StoredCell& cell, const RateCurve& curve) {
   if (!cell.options.budgets.empty()) return cell.options.budgets;
   std::vector<std::size_t> sizes;
@@ -28,34 +31,89 @@ std::vector<std::size_t> rates(const StoredCell& cell, const RateCurve& curve) {
   return sizes;
 }
 
-BaselineRow row_of(const StoredCell& cell) {
-  BaselineRow row;
-  row.model = cell.model;
-  row.label = cell.label;
-  row.cause = cell.cause;
-  for (const Axis& axis : axes())
-    if (axis.applies_to(cell.options.method)) row.options[axis.name] = to_string(axis.get(cell.options));
+// Numbers of one cell by name.
+std::map<std::string, double> numbers_of(const StoredCell& cell) {
+  std::map<std::string, double> numbers;
   for (const Quantity& quantity : quantities())
-    if (const auto value = cell.number(quantity.name)) row.numbers[quantity.name] = *value;
-  const std::vector<CurvePoint> points = cell.points();
-  row.curve = envelope_of(points);
-  row.ceiling_db = ceiling_db(points);
-  for (std::size_t bytes : rates(cell, row.curve)) {
-    if (row.curve.empty() || static_cast<double>(bytes) < row.curve.front().bytes) continue;
-    row.numbers[fmt::format("{} at {} bytes", kPsnr, bytes)] =
-        psnr_at(row.curve, static_cast<double>(bytes)).value_or(row.curve.back().psnr_db);
+    if (const auto value = cell.number(quantity.name)) numbers[quantity.name] = *value;
+  const RateCurve curve = envelope_of(cell.points());
+  for (std::size_t bytes : rates(cell, curve)) {
+    if (curve.empty() || static_cast<double>(bytes) < curve.front().bytes) continue;
+    numbers[fmt::format("{} at {} bytes", kPsnr, bytes)] =
+        psnr_at(curve, static_cast<double>(bytes)).value_or(curve.back().psnr_db);
   }
+  return numbers;
+}
+
+std::map<std::string, double> times_of(const StoredCell& cell) {
+  std::map<std::string, double> times;
   for (const StageResult& stage : cell.stages)
     if (stage.reference_seconds > 0.0 && !stage.failed())
-      row.times[fmt::format("{} {}", kTime, stage_name(stage.kind))] = stage.cpu_seconds / stage.reference_seconds;
+      times[fmt::format("{} {}", kTime, stage_name(stage.kind))] = stage.cpu_seconds / stage.reference_seconds;
+  return times;
+}
+
+// The means of those numbers that all have; their deviations where these are not zero.
+void average(const std::vector<std::map<std::string, double>>& all, std::map<std::string, double>& means,
+             std::map<std::string, double>* deviations) {
+  for (const auto& [name, value] : all.front()) {
+    std::vector<double> values;
+    for (const auto& numbers : all)
+      if (const auto found = numbers.find(name); found != numbers.end()) values.push_back(found->second);
+    if (values.size() < all.size()) continue;
+    // The mean of equal values is that value to the last bit.
+    const bool equal = std::all_of(values.begin(), values.end(), [&](double v) { return v == value; });
+    means[name] = equal ? value : std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+    if (!equal && deviations) (*deviations)[name] = std::sqrt(sample_variance(values));
+  }
+}
+
+// How far the curves of replicates lie from the mean one, as a standard deviation of BD-rates; 0 where they have none.
+double bd_deviation(const CurveSeries& series, const BaselineRow& row) {
+  std::vector<double> rates;
+  for (const auto& [replicate, points] : series.runs) try {
+      rates.push_back(bd_compare(bd_curve(row), bd_curve(points), {.ceiling_margin_db = kCeilingMarginDb}).rate.value);
+    } catch (const Error&) {
+      return 0.0;
+    }
+  return std::sqrt(sample_variance(rates));
+}
+
+// Of the cells of one label on one model.
+BaselineRow row_of(const std::vector<const StoredCell*>& cells) {
+  BaselineRow row;
+  const StoredCell& first = *cells.front();
+  row.model = first.model;
+  row.label = first.label;
+  row.replicates = static_cast<int>(cells.size());
+  for (const Axis& axis : axes())
+    if (!axis.repeats && axis.applies_to(first.options.method))
+      row.options[axis.name] = to_string(axis.get(first.options));
+  std::vector<std::map<std::string, double>> numbers, times;
+  CurveSeries series{first.label, {}};
+  for (const StoredCell* cell : cells) {
+    if (row.cause.empty()) row.cause = cell->cause;
+    numbers.push_back(numbers_of(*cell));
+    times.push_back(times_of(*cell));
+    if (CurvePoints points = cell->points(); !points.empty())
+      series.runs[cell->options.parameterize.replicate] = std::move(points);
+  }
+  average(numbers, row.numbers, &row.deviations);
+  average(times, row.times, nullptr);
+  for (const SpreadPoint& point : spread_of(series)) row.curve.push_back({point.bytes, point.mean_db});
+  row.ceiling_db = ceiling_db(series);
+  if (row.replicates > 1)
+    if (const double deviation = bd_deviation(series, row); deviation > 0.0) row.deviations[kBdRate] = deviation;
   return row;
 }
 
 Json row_json(const BaselineRow& row) {
   Json curve = Json::array();
   for (const RatePoint& point : row.curve) curve.push_back({point.bytes, point.psnr_db});
-  return {{"model", row.model},     {"label", row.label}, {"options", row.options},       {"cause", row.cause},
-          {"numbers", row.numbers}, {"times", row.times}, {"ceiling_db", row.ceiling_db}, {"curve", curve}};
+  return {
+      {"model", row.model},           {"label", row.label},     {"options", row.options},       {"cause", row.cause},
+      {"replicates", row.replicates}, {"numbers", row.numbers}, {"deviations", row.deviations}, {"times", row.times},
+      {"ceiling_db", row.ceiling_db}, {"curve", curve}};
 }
 
 BaselineRow row_from(const Json& j) {
@@ -64,6 +122,9 @@ BaselineRow row_from(const Json& j) {
   row.label = j.at("label").get<std::string>();
   row.options = j.at("options").get<std::map<std::string, std::string>>();
   row.cause = j.at("cause").get<std::string>();
+  // Baselines of one run lack both.
+  row.replicates = j.value("replicates", 1);
+  row.deviations = j.value("deviations", std::map<std::string, double>());
   row.numbers = j.at("numbers").get<std::map<std::string, double>>();
   row.times = j.at("times").get<std::map<std::string, double>>();
   row.ceiling_db = j.at("ceiling_db").get<double>();
@@ -84,6 +145,13 @@ Baseline baseline_from(const Json& j) {
 
 }  // namespace
 
+BdCurve bd_curve(const BaselineRow& row) {
+  BdCurve curve;
+  for (const RatePoint& point : row.curve) curve.points.push_back({point.bytes, point.psnr_db});
+  if (row.ceiling_db > 0.0) curve.ceiling_db = row.ceiling_db;
+  return curve;
+}
+
 const std::vector<Quantity>& quantities() {
   using enum Direction;
   // The numbers depend on nothing but the input and the program, up to the last bits that mathematical libraries differ
@@ -91,7 +159,7 @@ const std::vector<Quantity>& quantities() {
   constexpr Tolerance kExact{0.0, 0.0}, kRounding{0.0, 1e-3};
   static const std::vector<Quantity> all = {
       {kPsnr, HigherIsBetter, {0.02, 0.0}},
-      {"bd_rate", LowerIsBetter, {0.5, 0.0}},
+      {kBdRate, LowerIsBetter, {0.5, 0.0}},
       {"remesh_error", LowerIsBetter, {0.0, 2e-3}},
       {"stream_bytes", LowerIsBetter, {0.0, 2e-3}},
       {"flipped_faces", LowerIsBetter, kExact},
@@ -125,8 +193,15 @@ Baseline baseline_of(const std::string& recipe, const std::vector<StoredCell>& c
   baseline.recipe = recipe;
   baseline.version = version();
   for (const Quantity& quantity : quantities()) baseline.tolerances[quantity.name] = quantity.tolerance;
-  for (const StoredCell& cell : cells)
-    if (cell.status != CellStatus::Waiting) baseline.rows.push_back(row_of(cell));
+  std::vector<std::vector<const StoredCell*>> groups;
+  std::map<std::pair<std::string, std::string>, std::size_t> places;
+  for (const StoredCell& cell : cells) {
+    if (cell.status == CellStatus::Waiting) continue;
+    const auto [place, added] = places.try_emplace({cell.model, cell.label}, groups.size());
+    if (added) groups.emplace_back();
+    groups[place->second].push_back(&cell);
+  }
+  for (const auto& group : groups) baseline.rows.push_back(row_of(group));
   return baseline;
 }
 

@@ -8,12 +8,15 @@
 
 #include "experiments/curve/summary.h"
 #include "metrics/bd_rate.h"
+#include "metrics/bootstrap.h"
 
 namespace gsp {
 
 namespace {
 
 constexpr const char* kNone = "-";
+// Share of checks that may fail by chance alone.
+constexpr double kFalseAlarms = 0.05;
 
 // The value of an option where nothing is said of it; "-" where there is no such option.
 std::string default_text(const std::string& name) {
@@ -23,13 +26,6 @@ std::string default_text(const std::string& name) {
 
 std::string text(double value) { return fmt::format("{:.6g}", value); }
 
-BdCurve bd_curve_of(const BaselineRow& row) {
-  BdCurve curve;
-  for (const RatePoint& point : row.curve) curve.points.push_back({point.bytes, point.psnr_db});
-  if (row.ceiling_db > 0.0) curve.ceiling_db = row.ceiling_db;
-  return curve;
-}
-
 class Checker {
  public:
   Checker(const Baseline& baseline, const Baseline& run, const CheckOptions& options)
@@ -37,9 +33,11 @@ class Checker {
 
   CheckResult result() {
     result_.rows = baseline_.rows;
+    for (const BaselineRow& row : baseline_.rows) comparisons_ += static_cast<int>(row.numbers.size()) + 1;
     for (const BaselineRow& row : baseline_.rows) {
       before_ = &row;
       const BaselineRow* now = find(run_, row);
+      now_ = now;
       if (!now)
         moved("row", "there", "missing", kNone, Verdict::Regressed);
       else
@@ -106,7 +104,8 @@ class Checker {
     const Quantity& quantity = quantity_of(name);
     const auto given = baseline_.tolerances.find(quantity.name);
     const Tolerance tolerance = given == baseline_.tolerances.end() ? quantity.tolerance : given->second;
-    const double allowed = std::max(tolerance.absolute, tolerance.relative * std::abs(before));
+    const double allowed =
+        std::max({tolerance.absolute, tolerance.relative * std::abs(before), explained_by_chance(name)});
     // What is no number any more has moved too.
     if (std::abs(now - before) <= allowed) return;
     Verdict verdict = Verdict::Changed;
@@ -116,16 +115,26 @@ class Checker {
     moved(name, text(before), text(now), text(allowed), verdict);
   }
 
+  /// How far a mean of the run's replicates lies from that of the baseline's by chance, so that of all comparisons of
+  /// one check none passes it in 95% of the checks (Student's t, Bonferroni). 0 where the baseline has one replicate.
+  double explained_by_chance(const std::string& name) const {
+    const auto deviation = before_->deviations.find(name);
+    if (deviation == before_->deviations.end() || before_->replicates < 2) return 0.0;
+    const double both = 1.0 / before_->replicates + 1.0 / now_->replicates;
+    return deviation->second * std::sqrt(both) *
+           student_quantile(1.0 - 0.5 * kFalseAlarms / comparisons_, before_->replicates - 1.0);
+  }
+
   void compare_bd(const BaselineRow& before, const BaselineRow& now) {
     const BdOptions options{.ceiling_margin_db = kCeilingMarginDb};
     try {
-      bd_compare(bd_curve_of(before), bd_curve_of(before), options);
+      bd_compare(bd_curve(before), bd_curve(before), options);
     } catch (const Error&) {
       ++result_.without_bd;
       return;
     }
     try {
-      compare_number("bd_rate", 0.0, bd_compare(bd_curve_of(before), bd_curve_of(now), options).rate.value);
+      compare_number("bd_rate", 0.0, bd_compare(bd_curve(before), bd_curve(now), options).rate.value);
     } catch (const Error& error) {
       moved("bd_rate", "0", error.what(), kNone, Verdict::Regressed);
     }
@@ -135,6 +144,8 @@ class Checker {
   const Baseline& run_;
   const CheckOptions& options_;
   const BaselineRow* before_ = nullptr;
+  const BaselineRow* now_ = nullptr;
+  int comparisons_ = 0;  ///< that chance may decide
   CheckResult result_;
 };
 

@@ -37,17 +37,18 @@ constexpr int kPanelWidth = 640, kKeyWidth = 340;
 std::pair<double, double> byte_range(const std::vector<CurveSeries>& curves) {
   double low = 256.0, high = 1024.0;
   for (const CurveSeries& curve : curves)
-    for (const CurvePoint& p : curve.points) {
-      low = std::min(low, static_cast<double>(p.bytes));
-      if (p.remesh_error > 0.0) high = std::max(high, static_cast<double>(p.bytes));
-    }
+    for (const auto& [replicate, points] : curve.runs)
+      for (const CurvePoint& p : points) {
+        low = std::min(low, static_cast<double>(p.bytes));
+        if (p.remesh_error > 0.0) high = std::max(high, static_cast<double>(p.bytes));
+      }
   return {low, high};
 }
 
 // A little above the highest ceiling: Draco, which has none, would push everything else down.
 std::string highest_shown(const std::vector<CurveSeries>& curves) {
   double ceiling = 0.0;
-  for (const CurveSeries& curve : curves) ceiling = std::max(ceiling, ceiling_db(curve.points));
+  for (const CurveSeries& curve : curves) ceiling = std::max(ceiling, ceiling_db(curve));
   return ceiling > 0.0 ? fmt::format("{:.1f}", ceiling + 3.0) : "*";
 }
 
@@ -69,8 +70,9 @@ std::string panel_data(const std::vector<CurveSeries>& curves, std::size_t panel
   std::string script;
   for (std::size_t m = 0; m < curves.size(); ++m) {
     script += data_name(panel, m) + " << EOD\n";
-    for (const RatePoint& point : envelope_of(curves[m].points))
-      script += fmt::format("{:.0f} {:.4f}\n", point.bytes, point.psnr_db);
+    for (const SpreadPoint& point : spread_of(curves[m]))
+      script +=
+          fmt::format("{:.0f} {:.4f} {:.4f} {:.4f}\n", point.bytes, point.mean_db, point.lowest_db, point.highest_db);
     script += "EOD\n";
   }
   return script;
@@ -97,6 +99,9 @@ class Looks {
     return fmt::format("with linespoints lw {} pt {} ps {} lc rgb '{}'", i == 0 ? 4 : 2,
                        kPoints[static_cast<std::size_t>(again) % std::size(kPoints)], again ? 1.0 : 0.5, colors_[i]);
   }
+  std::string band(const std::string& name) const {
+    return fmt::format("with filledcurves fs transparent solid 0.2 noborder lc rgb '{}'", colors_[place(name)]);
+  }
   std::string ceiling(const std::string& name) const {
     return fmt::format("with lines dt 2 lw 1 lc rgb '{}'", colors_[place(name)]);
   }
@@ -112,12 +117,15 @@ std::string panel_commands(const PlotPanel& panel, std::size_t index, const Look
   const auto& [model, curves] = panel;
   std::string lines;
   for (std::size_t m = 0; m < curves.size(); ++m)
+    if (curves[m].runs.size() > 1)
+      lines += fmt::format("{} using 1:3:4 {} notitle, \\\n     ", data_name(index, m), looks.band(curves[m].name));
+  for (std::size_t m = 0; m < curves.size(); ++m)
     lines += fmt::format("{}{} using 1:2 {} title {}", m ? ", \\\n     " : "", data_name(index, m),
                          looks.curve(curves[m].name), gnuplot_quoted(curves[m].name));
   const bool few = curves.size() <= kFewCurves;
   std::set<double> ceilings;
   for (const CurveSeries& curve : curves)  // those coded from one remesh share theirs
-    if (const double ceiling = ceiling_db(curve.points); ceiling > 0.0 && ceilings.insert(ceiling).second)
+    if (const double ceiling = ceiling_db(curve); ceiling > 0.0 && ceilings.insert(ceiling).second)
       lines += fmt::format(", \\\n     {:.4f} {} {}", ceiling, looks.ceiling(curve.name),
                            few ? "title " + gnuplot_quoted(curve.name + " remesh (ceiling)") : "notitle");
   const auto [low, high] = byte_range(curves);
@@ -134,7 +142,7 @@ std::string panels_with_key(const std::vector<PlotPanel>& panels, const Looks& l
   for (std::size_t i = 0; i < panels.size(); ++i) {
     commands += fmt::format("set origin {:.5f},0\nset size {:.5f},1\n{}", i * kPanelWidth / width, kPanelWidth / width,
                             panel_commands(panels[i], i, looks));
-    for (const CurveSeries& curve : panels[i].second) ceilings = ceilings || ceiling_db(curve.points) > 0.0;
+    for (const CurveSeries& curve : panels[i].second) ceilings = ceilings || ceiling_db(curve) > 0.0;
   }
   std::string entries;
   for (const std::string& name : looks.names())

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "experiments/cells/cell_options.h"
 #include "experiments/curve/curve_csv.h"
@@ -32,6 +33,14 @@ void write_text(const std::string& path, const std::string& text) {
 }
 
 Json optional(const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(); }
+
+// What the page draws of several replicates: their mean, and a band around it.
+Json spread_json(const CurveSeries& series) {
+  Json points = Json::array();
+  for (const SpreadPoint& p : spread_of(series))
+    points.push_back({{"bytes", p.bytes}, {"psnr_db", p.mean_db}, {"low_db", p.lowest_db}, {"high_db", p.highest_db}});
+  return points;
+}
 
 class Report {
  public:
@@ -69,8 +78,10 @@ class Report {
   /// The cells of a model that the 3D view shows: the reference first.
   std::vector<const StoredCell*> viewed_cells(const StoredModel& model) const {
     std::vector<const StoredCell*> cells;
+    std::set<std::string> taken;  // of replicates the first
     for (const StoredCell& cell : run_.cells)
-      if (cell.model == model.name && cell.status == CellStatus::Done && !cell.artefact("stream").empty())
+      if (cell.model == model.name && cell.status == CellStatus::Done && !cell.artefact("stream").empty() &&
+          taken.insert(cell.label).second)
         cells.push_back(&cell);
     std::stable_partition(cells.begin(), cells.end(),
                           [&](const StoredCell* c) { return c->label == result_.findings.reference; });
@@ -99,43 +110,56 @@ class Report {
     }
   }
 
-  Json curve_json(const StoredCell& cell, const MethodSummary* summary) const {
-    Json points = Json::array();
+  /// Of the cells that share a label on a model: numbers that have no mean are the first one's.
+  Json curve_json(const StoredCell& cell, const CurveSeries* series, const MethodSummary* summary) const {
+    Json points = Json::array(), bytes_at = Json::array();
     std::string positions;
-    for (const CurvePoint& p : cell.points()) {
-      points.push_back(measured_json(p));
-      positions = further_option(p.options, "positions");
-    }
-    Json bytes_at = Json::array();
+    if (series)
+      for (const auto& [replicate, run] : series->runs)
+        for (const CurvePoint& p : run) {
+          points.push_back(measured_json(p));
+          points.back()["replicate"] = replicate;
+          positions = further_option(p.options, "positions");
+        }
     for (std::size_t i = 0; i < std::size(kTableLevelsDb); ++i)
       bytes_at.push_back(summary ? optional(summary->bytes_at[i]) : Json());
     const Comparison* comparison = result_.findings.comparison(cell.model, cell.label);
     const auto view = views_.find({cell.model, cell.label});
-    const bool anchor = is_anchor(cell.options.method);
+    const bool ceiling = summary && summary->ceiling_db > 0.0;
     return {{"label", cell.label},
             {"method", cell.options.method},
             {"mode", stream_mode_name(cell.options.mode)},
-            {"ceiling_db", optional(cell.number("ceiling_db"))},
+            {"replicates", series ? series->runs.size() : 0},
+            {"ceiling_db", ceiling ? Json(summary->ceiling_db) : Json()},
             {"base_vertices", optional(cell.number("base_vertices"))},
             {"level", optional(cell.number("level"))},
             {"positions", positions.empty() ? Json() : Json(positions)},
-            {"remesh_error", optional(cell.number("remesh_error"))},
-            {"paper_error", anchor ? Json() : optional(paper_remesh_error(cell.model))},
+            {"remesh_error", ceiling ? Json(std::pow(10.0, -summary->ceiling_db / 20.0)) : Json()},
+            {"paper_error", is_anchor(cell.options.method) ? Json() : optional(paper_remesh_error(cell.model))},
             {"bytes_at", bytes_at},
             {"bd_rate", comparison ? optional(comparison->bd_rate) : Json()},
+            {"bd_interval",
+             comparison && comparison->interval ? Json{comparison->interval->low, comparison->interval->high} : Json()},
             {"bd_note", comparison ? comparison->note : ""},
             {"view", view == views_.end() ? Json() : Json(view->second)},
+            {"spread", series && series->runs.size() > 1 ? spread_json(*series) : Json()},
             {"points", points}};
   }
 
   Json model_json(const StoredModel& model) const {
-    const CurveSummary summary = summarize(model.name, run_.curves(model.name));
+    const std::vector<CurveSeries> series = run_.curves(model.name);
+    const CurveSummary summary = summarize(model.name, series);
     Json curves = Json::array();
+    std::set<std::string> told;
     for (const StoredCell& cell : run_.cells) {
-      if (cell.model != model.name) continue;
-      const auto row = std::find_if(summary.methods.begin(), summary.methods.end(),
-                                    [&](const MethodSummary& m) { return m.method == cell.label; });
-      curves.push_back(curve_json(cell, row == summary.methods.end() ? nullptr : &*row));
+      if (cell.model != model.name || !told.insert(cell.label).second) continue;
+      // Summaries are in the order of the series.
+      const auto found =
+          std::find_if(series.begin(), series.end(), [&](const CurveSeries& s) { return s.name == cell.label; });
+      const bool known = found != series.end();
+      curves.push_back(
+          curve_json(cell, known ? &*found : nullptr,
+                     known ? &summary.methods[static_cast<std::size_t>(found - series.begin())] : nullptr));
     }
     return {{"name", model.name}, {"vertices", model.vertices}, {"faces", model.faces}, {"curves", curves}};
   }
@@ -146,7 +170,7 @@ class Report {
     for (const StoredCell& cell : run_.cells)
       if (cell.status == CellStatus::Failed)
         failures.push_back(
-            {{"model", cell.model}, {"label", cell.label}, {"cause", cell.cause}, {"failure", cell.failure}});
+            {{"model", cell.model}, {"label", cell.title()}, {"cause", cell.cause}, {"failure", cell.failure}});
     for (const RunFigure& f : figures) pictures.push_back({{"png", f.png}, {"svg", f.svg}, {"caption", f.caption}});
     return {{"name", run_.name},
             {"about", fmt::format("{} model{}, {} cells, gsp {}", run_.models.size(),

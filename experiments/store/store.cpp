@@ -99,6 +99,11 @@ const char* status_name(CellStatus status) {
 
 std::string fixed_stream_role(std::size_t bytes) { return "stream of " + std::to_string(bytes) + " bytes"; }
 
+std::string StoredCell::title() const {
+  const int replicate = options.parameterize.replicate;
+  return replicate == 0 ? label : label + ", replicate " + std::to_string(replicate);
+}
+
 const StageResult* StoredCell::stage(StageKind kind) const {
   const auto found = std::find_if(stages.begin(), stages.end(), [&](const StageResult& s) { return s.kind == kind; });
   return found == stages.end() ? nullptr : &*found;

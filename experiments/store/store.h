@@ -76,13 +76,16 @@ const char* status_name(CellStatus status);
 struct StoredCell {
   int position = 0;   ///< in the recipe's order, from 0
   std::string model;  ///< name of its StoredModel
-  std::string label;  ///< the method, and the values of those options that vary within it: "gsp gamma=0 mu=1"
+  /// The method, and the values of those options that vary within it: "gsp gamma=0 mu=1". Replicates share one.
+  std::string label;
   CellOptions options;
   CellStatus status = CellStatus::Waiting;
   std::string cause, failure;  ///< of the first stage that failed
   std::vector<StageResult>
       stages;  ///< those that have run, in the order of StageKind; artefacts with the store's folder
 
+  /// The label, and the replicate where it is not the first: "gsp, replicate 3".
+  std::string title() const;
   /// The stage, or null where it has not run or the method has none.
   const StageResult* stage(StageKind kind) const;
   /// A number of whichever stage has it.
