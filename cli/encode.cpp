@@ -46,9 +46,9 @@ Bytes embedded_stream(Bytes whole, const SemiregularMesh& mesh, const EncodeArgu
   return whole;
 }
 
-Bytes fixed_stream(const SemiregularMesh& mesh, const EncodeOptions& encode_options, const EncodeArguments& options,
-                   Progress& progress) {
-  if (options.psnr > 0.0) return fixed_for_psnr(mesh, encode_options, options.psnr, progress);
+Bytes fixed_stream(const SemiregularMesh& mesh, const EncodeOptions& encode_options, const Bytes& embedded,
+                   const EncodeArguments& options, Progress& progress) {
+  if (options.psnr > 0.0) return fixed_for_psnr(mesh, encode_options, embedded, options.psnr, progress);
   return encode_fixed(mesh, encode_options, options.bytes, progress);
 }
 
@@ -65,8 +65,8 @@ int run_encode(const EncodeArguments& options, Context& context) {
   const std::size_t header = header_bytes(whole);
   if (options.bytes > 0 && options.bytes < header)
     throw Error(Cause::BadOption, "the header alone takes " + std::to_string(header) + " bytes");
-  const Bytes stream =
-      fixed ? fixed_stream(mesh, encode_options, options, progress) : embedded_stream(whole, mesh, options, progress);
+  const Bytes stream = fixed ? fixed_stream(mesh, encode_options, whole, options, progress)
+                             : embedded_stream(whole, mesh, options, progress);
 
   AtomicFile file(options.output);
   file.stream().write(reinterpret_cast<const char*>(stream.data()), static_cast<std::streamsize>(stream.size()));

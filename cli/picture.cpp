@@ -50,7 +50,7 @@ void add_picture(CLI::App& app, Context& context) {
   command.choice("--what", options->what, subject_words(),
                  "what is shown; wireframe, surface and distance do with any surface, the others want a map");
   std::vector<std::string> measures = map_measure_names();
-  measures.pop_back();  // smoothness is a subject of its own
+  std::erase(measures, subject_name(Subject::Smoothness));  // a subject of its own
   command.choice("--measure", options->picture.measure, measures, "of distortion: gray is neutral, red the worst 5%");
   command.integer("--lines", options->picture.density, 1, 1024, "of isolines: lines across a patch, each way");
   command.remesh_options(options->picture.remesh);

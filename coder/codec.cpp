@@ -90,6 +90,9 @@ struct Structure {
 
   Structure(const StreamHeader& header, int level)
       : transform(detail_levels(header, level), header.wavelet), levels(transform.levels()), forest(levels) {}
+  // `levels` and what `layout` returns point into this.
+  Structure(const Structure&) = delete;
+  Structure& operator=(const Structure&) = delete;
 
   /// Positions of `level` from what is known of the coefficients; those of the coarser levels are `visit`ed on the way.
   template <class Visit>

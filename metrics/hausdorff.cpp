@@ -127,13 +127,13 @@ class Bounder {
 class Search {
  public:
   Search(const Mesh& from, const TriangleTree& to, const HausdorffOptions& options, double rounding)
-      : bounder_(to), options_(options), rounding_(rounding) {
+      : bounder_(to), options_(options), triangles_(from.faces.size()), rounding_(rounding) {
     start(from, to);
   }
 
   DistanceBounds run(const std::string& stage, Progress& progress) {
     constexpr std::size_t kReportEvery = 1 << 16;
-    for (; !queue_.empty() && !closed(queue_.top().bound) && number_ < options_.most_pieces; ++steps_) {
+    for (; !queue_.empty() && !closed(queue_.top().bound) && may_split(); ++steps_) {
       if (steps_ % kReportEvery == 0)
         progress.report(stage, static_cast<double>(number_) / static_cast<double>(options_.most_pieces));
       const Piece piece = queue_.top();
@@ -146,6 +146,11 @@ class Search {
   }
 
  private:
+  /// Whether pieces and room for them are left: a split takes one piece from the queue and may put four into it.
+  bool may_split() const {
+    return number_ < options_.most_pieces && queue_.size() + 3 <= triangles_ + options_.most_waiting;
+  }
+
   /// Whether a piece with that bound needs no more looking at.
   bool closed(double bound) const { return bound <= (1.0 + options_.tolerance) * lower_ || bound <= rounding_; }
 
@@ -206,6 +211,7 @@ class Search {
 
   Bounder bounder_;
   const HausdorffOptions& options_;
+  std::size_t triangles_;
   double rounding_;
   std::priority_queue<Piece> queue_;
   double lower_ = 0.0, closed_ = 0.0;  ///< largest distance seen, largest bound of a closed piece
@@ -224,7 +230,7 @@ HausdorffBounds hausdorff_bounds(const Mesh& a, const Mesh& b, const HausdorffOp
 
 HausdorffBounds hausdorff_bounds(const Mesh& a, const SurfaceTree& tree_a, const Mesh& b, const SurfaceTree& tree_b,
                                  const HausdorffOptions& options, Progress& progress) {
-  if (!(options.tolerance >= 1e-6 && options.tolerance <= 1.0))
+  if (!(options.tolerance >= HausdorffOptions::kLeastTolerance && options.tolerance <= 1.0))
     throw Error(Cause::BadOption, "the tolerance of the Hausdorff bounds is between 1e-6 and 1");
   const double rounding = kRounding * std::max(largest_coordinate(a), largest_coordinate(b));
   HausdorffBounds result;

@@ -24,9 +24,13 @@ struct HausdorffBounds {
 };
 
 struct HausdorffOptions {
-  double tolerance = 0.01;  ///< in [1e-6, 1]: stop where upper <= (1 + tolerance) * lower
-  std::size_t most_pieces =
-      20'000'000;  ///< pieces of triangles looked at in a direction; bounds are wider where they run out
+  static constexpr double kLeastTolerance = 1e-6;
+  double tolerance = 0.01;  ///< in [kLeastTolerance, 1]: stop where upper <= (1 + tolerance) * lower
+  /// Pieces of triangles looked at in a direction, the triangles included; bounds are wider where they run out.
+  std::size_t most_pieces = 20'000'000;
+  /// Pieces that wait at once, beside the triangles themselves: they are the memory that is taken, 136 bytes each (0.6
+  /// GB, for a moment twice that). Bounds are wider where there is no room for more.
+  std::size_t most_waiting = 4'000'000;
 };
 
 /// Encloses the Hausdorff distance by branch and bound over the triangles of one surface against the tree of the other:

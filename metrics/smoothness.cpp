@@ -101,7 +101,9 @@ double corner_distance(const Diamond& d) {
 class BesideCorners {
  public:
   void add(bool inside, const Diamond& d, Weighted second_derivative) {
-    Ring& ring = rings_[static_cast<int>(std::floor(kRingsPerOctave * std::log2(corner_distance(d))))];
+    const double distance = corner_distance(d);
+    if (!(distance > 0.0)) return;  // in a folded map, an edge may run over a corner: no ring holds its middle
+    Ring& ring = rings_[static_cast<int>(std::floor(kRingsPerOctave * std::log2(distance)))];
     (inside ? ring.inside : ring.across).add(second_derivative);
   }
 

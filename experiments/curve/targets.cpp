@@ -81,10 +81,10 @@ std::size_t prefix_for_psnr(const Bytes& stream, const SemiregularMesh& original
   });
 }
 
-Bytes fixed_for_psnr(const SemiregularMesh& mesh, const EncodeOptions& options, double psnr_db, Progress& progress) {
+Bytes fixed_for_psnr(const SemiregularMesh& mesh, const EncodeOptions& options, const Bytes& embedded, double psnr_db,
+                     Progress& progress) {
   const StreamRuler ruler(mesh);
   Progress silent;
-  const Bytes embedded = encode(mesh, options, progress);
   const std::size_t bytes = least_size(header_bytes(embedded), embedded.size(), [&](std::size_t size) {
     progress.report(fmt::format("search the size: {} bytes", size), 0.0);
     return ruler.psnr_db(encode_fixed(mesh, options, size, silent), size) >= psnr_db;

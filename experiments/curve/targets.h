@@ -20,7 +20,9 @@ SemiregularMesh remesh_to_error(const Parameterization& map, double max_error, R
 std::size_t prefix_for_psnr(const Bytes& stream, const SemiregularMesh& original, double psnr_db, Progress& progress);
 
 /// The stream of `encode_fixed` for the least size (to 1%) at which its decoded surface is at least `psnr_db` from
-/// `mesh`; for the size of the whole embedded stream where none is. Throws what `encode_fixed` throws.
-Bytes fixed_for_psnr(const SemiregularMesh& mesh, const EncodeOptions& options, double psnr_db, Progress& progress);
+/// `mesh`; for the size of the whole embedded stream where none is. `embedded` is that stream, of the same options.
+/// Throws what `encode_fixed` throws.
+Bytes fixed_for_psnr(const SemiregularMesh& mesh, const EncodeOptions& options, const Bytes& embedded, double psnr_db,
+                     Progress& progress);
 
 }  // namespace gsp

@@ -24,25 +24,72 @@ using Solver = Eigen::UmfPackLU<Matrix>;
 template <class Matrix>
 using Cholesky = Eigen::CholmodSupernodalLLT<Matrix, Eigen::Lower>;
 
-/// A threaded BLAS sums in an order that depends on the number of threads; results must not. CHOLMOD's own threads make
-/// loops that are too short for them, and take a fifth of its time.
-void use_one_solver_thread() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    const auto call = [](const char* name, int value) {
-      if (void* function = dlsym(RTLD_DEFAULT, name)) reinterpret_cast<void (*)(int)>(function)(value);
-    };
-    call("openblas_set_num_threads", 1);
-    call("omp_set_max_active_levels", 0);
-  });
-}
+/// A setting of another library, by the names of its two functions; none where that library is not loaded.
+class Setting {
+ public:
+  Setting(const char* get, const char* set)
+      : get_(reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, get))),
+        set_(reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, set))) {}
+  /// Sets it and returns what it was.
+  int exchange(int value) const {
+    if (!get_ || !set_) return value;
+    const int before = get_();
+    if (before != value) set_(value);
+    return before;
+  }
+
+ private:
+  int (*get_)();
+  void (*set_)(int);
+};
+
+/// While one lives, solvers use this thread alone. A threaded BLAS sums in an order that depends on the number of
+/// threads; results must not. CHOLMOD's own threads make loops that are too short for them, and take a fifth of its
+/// time. OpenBLAS has one number of threads for the process: the first that begins sets it and the last that ends puts
+/// back what was there. OpenMP's setting is the calling thread's own.
+class OneSolverThread {
+ public:
+  OneSolverThread() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex());
+      if (alive_++ == 0) blas_before_ = blas().exchange(1);
+    }
+    levels_before_ = levels().exchange(0);
+  }
+  ~OneSolverThread() {
+    levels().exchange(levels_before_);
+    const std::lock_guard<std::mutex> lock(mutex());
+    if (--alive_ == 0) blas().exchange(blas_before_);
+  }
+  OneSolverThread(const OneSolverThread&) = delete;
+  OneSolverThread& operator=(const OneSolverThread&) = delete;
+
+ private:
+  static const Setting& blas() {
+    static const Setting setting("openblas_get_num_threads", "openblas_set_num_threads");
+    return setting;
+  }
+  static const Setting& levels() {
+    static const Setting setting("omp_get_max_active_levels", "omp_set_max_active_levels");
+    return setting;
+  }
+  static std::mutex& mutex() {
+    static std::mutex mutex;
+    return mutex;
+  }
+  static inline int alive_ = 0, blas_before_ = 1;
+  int levels_before_ = 0;
+};
 #else
 template <class Matrix>
 using Solver = Eigen::SparseLU<Matrix, Eigen::COLAMDOrdering<int>>;
 template <class Matrix>
 using Cholesky = Eigen::SimplicialLLT<Matrix, Eigen::Lower>;
 
-void use_one_solver_thread() {}
+/// Eigen's own solvers have one thread.
+struct OneSolverThread {
+  OneSolverThread() {}
+};
 #endif
 
 /// CHOLMOD would write to standard output what its state says too.
@@ -73,7 +120,7 @@ void require_factorized(const AnySolver& solver, const ComplexVector& b) {
 
 ComplexVector solve_sparse(const ComplexMatrix& a, const ComplexVector& b) {
   if (b.size() == 0) return b;
-  use_one_solver_thread();
+  const OneSolverThread alone;
   Solver<ComplexMatrix> solver;
   solver.compute(a);
   require_factorized(solver, b);
@@ -83,7 +130,7 @@ ComplexVector solve_sparse(const ComplexMatrix& a, const ComplexVector& b) {
 
 ComplexVector solve_hermitian(const ComplexMatrix& lower, const ComplexVector& b) {
   if (b.size() == 0) return b;
-  use_one_solver_thread();
+  const OneSolverThread alone;
   Cholesky<ComplexMatrix> solver;
   keep_quiet(solver);
   solver.compute(lower);
@@ -93,7 +140,7 @@ ComplexVector solve_hermitian(const ComplexMatrix& lower, const ComplexVector& b
 }
 
 bool solve_sparse(const Eigen::SparseMatrix<double>& a, const Eigen::MatrixX2d& b, Eigen::MatrixX2d& x) {
-  use_one_solver_thread();
+  const OneSolverThread alone;
   Solver<Eigen::SparseMatrix<double>> solver;
   solver.compute(a);
   if (solver.info() != Eigen::Success) return false;
@@ -114,13 +161,16 @@ CholeskySolver::CholeskySolver() : factor_(std::make_unique<Factor>()) { keep_qu
 CholeskySolver::~CholeskySolver() = default;
 
 bool CholeskySolver::factorize(const Eigen::SparseMatrix<double>& lower) {
-  use_one_solver_thread();
+  const OneSolverThread alone;
   if (!factor_->analysed) factor_->llt.analyzePattern(lower);
   factor_->analysed = true;
   factor_->llt.factorize(lower);
   return factor_->llt.info() == Eigen::Success;
 }
 
-Eigen::VectorXd CholeskySolver::solve(const Eigen::VectorXd& b) const { return factor_->llt.solve(b); }
+Eigen::VectorXd CholeskySolver::solve(const Eigen::VectorXd& b) const {
+  const OneSolverThread alone;
+  return factor_->llt.solve(b);
+}
 
 }  // namespace gsp

@@ -9,6 +9,9 @@
 
 namespace gsp {
 
+// Solvers run on the calling thread alone, so that results do not depend on a threaded BLAS. While one runs, OpenBLAS
+// has one thread for the whole process; afterwards its number of threads is what it was.
+
 using ComplexMatrix = Eigen::SparseMatrix<Complex>;
 using ComplexVector = Eigen::VectorXcd;
 

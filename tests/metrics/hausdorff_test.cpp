@@ -140,6 +140,20 @@ TEST_CASE("bounds are the same for one and two threads, and stay true where piec
   CHECK(wide.forward.upper >= wide.forward.lower);
 }
 
+TEST_CASE("where no more pieces may wait, the bounds are wider and still enclose") {
+  const Mesh inner = shapes::sphere(2, 1.0), outer = shapes::sphere(2, 1.25);
+  HausdorffOptions roomy, narrow;
+  roomy.tolerance = narrow.tolerance = 1e-4;
+  narrow.most_waiting = 8;
+  Progress silent;
+  const DistanceBounds tight = hausdorff_bounds(inner, outer, roomy, silent).forward;
+  const DistanceBounds wide = hausdorff_bounds(inner, outer, narrow, silent).forward;
+  CHECK(tight.relative_width() <= 1e-4);
+  CHECK(wide.relative_width() > 1e-4);
+  CHECK(wide.lower <= tight.upper);
+  CHECK(wide.upper >= tight.lower);
+}
+
 TEST_CASE("tolerances out of range are refused") {
   for (double tolerance : {0.0, -1.0, 2.0, std::nan("")})
     CHECK_THROWS_AS(bounds(shapes::sphere(1), shapes::sphere(1), tolerance), Error);

@@ -178,3 +178,14 @@ TEST_CASE("degenerate faces and empty maps leave finite numbers") {
   for (double f : s.faces) CHECK(std::isfinite(f));
   CHECK(smoothness(Parameterization{}).all.maximum == 0.0);
 }
+
+TEST_CASE("an edge whose middle lies on a corner has no distance from it, and does no harm") {
+  Parameterization map = rhombus(3);
+  // The middle of the edge from corner 0 to corner 1 of the first face goes to a lattice point, as a fold may bring it.
+  const Complex middle = 0.5 * (map.face_corners[0][0] + map.face_corners[0][1]);
+  for (auto& corners : map.face_corners)
+    for (Complex& z : corners) z -= middle;
+  const Smoothness s = smoothness(map);
+  CHECK(std::isfinite(s.all.mean));
+  CHECK((!s.across_over_inside || std::isfinite(*s.across_over_inside)));
+}
