@@ -9,6 +9,7 @@
 #include "cli/options.h"
 #include "cli/print.h"
 #include "experiments/curve/summary.h"
+#include "experiments/output/quoting.h"
 #include "mesh/atomic_file.h"
 
 namespace gsp::cli {
@@ -39,8 +40,9 @@ int run_baseline(const BaselineOptions& options, Context& context) {
 
 void print_movements(std::ostream& out, const CheckResult& result) {
   for (const Movement& m : result.moved)
-    out << fmt::format("{:<10} {:<16} {:<24} {:<26} {} -> {} (allowed {})\n", verdict_name(m.verdict), m.model, m.label,
-                       m.what, m.before, m.after, m.allowed);
+    out << printable(fmt::format("{:<10} {:<16} {:<24} {:<26} {} -> {} (allowed {})", verdict_name(m.verdict), m.model,
+                                 m.label, m.what, m.before, m.after, m.allowed))
+        << '\n';
 }
 
 Json check_json(const CheckResult& result) {

@@ -6,6 +6,8 @@
 #include <csignal>
 #include <iostream>
 
+#include "experiments/output/quoting.h"
+
 namespace gsp::cli {
 
 namespace {
@@ -48,7 +50,7 @@ void Console::say(const std::string& sentence) {
 
 void Console::error(const std::string& sentence) {
   clear_line();
-  err_ << sentence << '\n';
+  err_ << printable(sentence) << '\n';
 }
 
 void Console::remark(const std::string& sentence) {
@@ -65,7 +67,7 @@ void Console::show(const std::string& stage, double fraction) {
   if (shown_ != Clock::time_point{} && now - shown_ < pause) return;
   shown_ = now;
   stage_ = stage;
-  const std::string text = fmt::format("{} {:.0f}%", stage, 100.0 * fraction);
+  const std::string text = fmt::format("{} {:.0f}%", printable(stage), 100.0 * fraction);
   if (terminal_) {
     err_ << "\r\033[K" << text << std::flush;
     line_open_ = true;

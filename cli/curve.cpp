@@ -10,6 +10,7 @@
 #include "experiments/cells/cell_options.h"
 #include "experiments/cells/models.h"
 #include "experiments/curve_job.h"
+#include "experiments/output/quoting.h"
 
 namespace gsp::cli {
 
@@ -39,7 +40,7 @@ int run_curve(CurveArguments& options, Context& context) {
   } else {
     print_summaries(context.out, job.models);
     context.out << "files\n";
-    for (const std::string& file : job.files) context.out << "  " << file << '\n';
+    for (const std::string& file : job.files) context.out << "  " << printable(file) << '\n';
   }
   return job.failed() ? 1 : 0;
 }

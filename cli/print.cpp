@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "experiments/output/quoting.h"
 #include "experiments/version.h"
 
 namespace gsp::cli {
@@ -21,7 +22,7 @@ std::string title(std::string name) {
 
 std::string value_text(const Json& value) {
   if (value.is_null()) return "-";
-  if (value.is_string()) return value.get<std::string>();
+  if (value.is_string()) return printable(value.get<std::string>());
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
   return value.dump();

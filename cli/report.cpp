@@ -5,6 +5,7 @@
 
 #include "cli/options.h"
 #include "cli/print.h"
+#include "experiments/output/quoting.h"
 
 namespace gsp::cli {
 
@@ -26,8 +27,8 @@ int run_report(ReportArguments& options, Context& context) {
         {{"reference", result.findings.reference}, {"sentences", result.findings.sentences}, {"files", result.files}});
     return 0;
   }
-  for (const std::string& sentence : result.findings.sentences) context.out << sentence << '\n';
-  context.out << result.files.front() << '\n';
+  for (const std::string& sentence : result.findings.sentences) context.out << printable(sentence) << '\n';
+  context.out << printable(result.files.front()) << '\n';
   return 0;
 }
 

@@ -11,6 +11,7 @@
 #include "cli/options.h"
 #include "cli/print.h"
 #include "cli/summary_report.h"
+#include "experiments/output/quoting.h"
 #include "experiments/sweep/slurm.h"
 #include "experiments/sweep/stage_runner.h"
 #include "experiments/sweep/worker.h"
@@ -46,7 +47,7 @@ void print_cell(std::ostream& out, const StoredCell& cell) {
   if (cell.status == CellStatus::Waiting)
     for (const StageResult& stage : cell.stages)
       remark += fmt::format("{}{} done", remark.empty() ? "" : ", ", stage_name(stage.kind));
-  out << fmt::format("{:<8} {:<16} {} {}\n", status_name(cell.status), cell.model, cell.label, remark);
+  out << printable(fmt::format("{:<8} {:<16} {} {}", status_name(cell.status), cell.model, cell.label, remark)) << '\n';
 }
 
 void print_cells(Context& context, const std::vector<StoredCell>& cells, const Json& further) {

@@ -9,6 +9,7 @@
 
 #include "experiments/cells/models.h"
 #include "experiments/curve/curve_csv.h"
+#include "experiments/output/quoting.h"
 #include "experiments/plot/plot.h"
 
 namespace gsp {
@@ -64,10 +65,11 @@ class Job {
     summary.methods = numbers.methods;
     if (!run.omega.empty())
       attempt(summary, [&] {
-        write_omega_csv(folder_ + "/" + model + "-omega.csv", run.omega);
-        made(model + "-omega.csv");
+        const std::string name = file_stem(model) + "-omega.csv";
+        write_omega_csv(folder_ + "/" + name, run.omega);
+        made(name);
       });
-    draw(summary, model, {{model, curves}});
+    draw(summary, file_stem(model), {{model, curves}});
     if (!curves.empty()) panels_.emplace_back(model, std::move(curves));
     result_.models.push_back(std::move(summary));
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "experiments/cells/suggest.h"
+#include "experiments/output/quoting.h"
 #include "mesh/error.h"
 #include "mesh/io.h"
 #include "mesh/shapes.h"
@@ -44,6 +46,17 @@ bool surface_ending(const fs::path& path) {
   return ending == ".ply" || ending == ".obj" || ending == ".off" || ending == ".stl";
 }
 
+std::vector<std::string> files_in(const std::string& folder) {
+  std::vector<std::string> files;
+  std::error_code failed;
+  for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
+    if (entry->is_regular_file(failed) && surface_ending(entry->path())) files.push_back(entry->path().string());
+  if (failed) throw Error(Cause::CannotOpen, "cannot list " + folder + ": " + failed.message());
+  if (files.empty()) throw Error(Cause::CannotOpen, "no PLY, OBJ, OFF or STL file in " + folder);
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 bool is_shape(const std::string& source) { return source.rfind(kShapePrefix, 0) == 0; }
 
 const Shape& shape_of(const std::string& source) {
@@ -65,20 +78,16 @@ std::vector<std::string> shape_names() {
   return names;
 }
 
+std::string surface_place(const std::string& source) {
+  return is_shape(source) ? source : fs::absolute(source).lexically_normal().string();
+}
+
 std::vector<std::string> surface_files(const std::vector<std::string>& paths) {
   std::vector<std::string> files;
-  for (const std::string& path : paths) {
-    if (!fs::is_directory(path)) {
-      files.push_back(path);
-      continue;
-    }
-    std::vector<std::string> inside;
-    for (const fs::directory_entry& entry : fs::directory_iterator(path))
-      if (entry.is_regular_file() && surface_ending(entry.path())) inside.push_back(entry.path().string());
-    if (inside.empty()) throw Error(Cause::CannotOpen, "no PLY, OBJ, OFF or STL file in " + path);
-    std::sort(inside.begin(), inside.end());
-    files.insert(files.end(), inside.begin(), inside.end());
-  }
+  std::set<std::string> places;
+  for (const std::string& path : paths)
+    for (std::string& file : fs::is_directory(path) ? files_in(path) : std::vector<std::string>{path})
+      if (places.insert(surface_place(file)).second) files.push_back(std::move(file));
   return files;
 }
 
@@ -87,7 +96,8 @@ std::vector<ModelSource> named_models(const std::vector<std::string>& sources) {
   std::map<std::string, int> uses;
   for (const std::string& source : sources) {
     const std::string name = is_shape(source) ? shape_of(source).name : fs::path(source).stem().string();
-    const int use = ++uses[name];
+    // By how people read it: names that differ in bytes that are no text would look the same.
+    const int use = ++uses[printable(name)];
     models.push_back({use == 1 ? name : fmt::format("{}-{}", name, use), source});
   }
   return models;
@@ -98,11 +108,17 @@ std::vector<std::string> matching_models(const std::string& pattern) {
     shape_of(pattern);
     return {pattern};
   }
+  // A file whose name has brackets or stars in it is no pattern.
+  if (fs::exists(pattern)) return surface_files({pattern});
   glob_t found{};
   const int status = ::glob(pattern.c_str(), 0, nullptr, &found);
   std::vector<std::string> paths(found.gl_pathv, found.gl_pathv + found.gl_pathc);
   ::globfree(&found);
-  if (status != 0) throw Error(Cause::CannotOpen, "no file matches " + pattern);
+  if (status != 0)
+    throw Error(Cause::CannotOpen, "no file matches " + pattern +
+                                       (fs::path(pattern).is_absolute()
+                                            ? std::string()
+                                            : ", looked for from the working folder " + fs::current_path().string()));
   return surface_files(paths);
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "experiments/cells/models.h"
@@ -206,8 +207,9 @@ struct ModelSource {
 
 // A surface that is named twice is one, with the keys of the entry that has some.
 void add_surface(std::vector<ModelSource>& surfaces, ModelSource surface, long long line) {
-  const auto same = std::find_if(surfaces.begin(), surfaces.end(),
-                                 [&](const ModelSource& other) { return other.source == surface.source; });
+  const auto same = std::find_if(surfaces.begin(), surfaces.end(), [&](const ModelSource& other) {
+    return surface_place(other.source) == surface_place(surface.source);
+  });
   if (same == surfaces.end()) {
     surfaces.push_back(std::move(surface));
   } else if (surface.own) {
@@ -324,6 +326,13 @@ void add_block(Recipe& recipe, const toml::table* block, const toml::table& file
   }
 }
 
+// One spelling for each surface, the first, so that blocks that name it differently mean one model.
+void spell_alike(Recipe& recipe) {
+  std::map<std::string, std::string> first;
+  for (RecipeBlock& block : recipe.blocks)
+    for (std::string& source : block.models) source = first.emplace(surface_place(source), source).first->second;
+}
+
 Recipe recipe_of(const toml::table& file, const std::string& otherwise, const std::vector<std::string>& instead) {
   Recipe recipe;
   recipe.name = text(file, "name", otherwise);
@@ -349,7 +358,9 @@ Recipe recipe_of(const toml::table& file, const std::string& otherwise, const st
 
 Recipe read_recipe(const std::string& path, const std::vector<std::string>& models) {
   try {
-    return recipe_of(parse(path), stem(path), models);
+    Recipe recipe = recipe_of(parse(path), stem(path), models);
+    spell_alike(recipe);
+    return recipe;
   } catch (const Error& error) {
     if (error.cause() == Cause::CannotOpen) throw;
     throw error.within(path);

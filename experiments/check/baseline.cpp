@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/curve/summary.h"
+#include "experiments/output/quoting.h"
 #include "experiments/store/json_file.h"
 #include "experiments/version.h"
 
@@ -30,8 +31,9 @@ std::vector<std::size_t> rates(const StoredCell& cell, const RateCurve& curve) {
 
 BaselineRow row_of(const StoredCell& cell) {
   BaselineRow row;
-  row.model = cell.model;
-  row.label = cell.label;
+  // As JSON gives them back: it holds no bytes that are no UTF-8.
+  row.model = printable(cell.model);
+  row.label = printable(cell.label);
   row.cause = cell.cause;
   for (const Axis& axis : axes())
     if (axis.applies_to(cell.options.method)) row.options[axis.name] = to_string(axis.get(cell.options));

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "experiments/curve/summary.h"
+#include "experiments/output/quoting.h"
 #include "metrics/bd_rate.h"
 
 namespace gsp {
@@ -138,27 +139,6 @@ class Checker {
   CheckResult result_;
 };
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (char c : text) switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += static_cast<unsigned char>(c) < 32 ? ' ' : c;
-    }
-  return result;
-}
-
 }  // namespace
 
 const char* verdict_name(Verdict verdict) {
@@ -190,17 +170,16 @@ std::string junit_report(const CheckResult& result, const std::string& recipe) {
     std::string message;
     for (const Movement& m : result.moved)
       if (m.fails() && m.model == row.model && m.label == row.label)
-        message += fmt::format("{}: {} -> {} (allowed {})\n", m.what, m.before, m.after, m.allowed);
+        message += xml_text(fmt::format("{}: {} -> {} (allowed {})", m.what, m.before, m.after, m.allowed)) + '\n';
     failures += !message.empty();
-    cases += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", escaped(row.model), escaped(row.label));
-    cases += message.empty()
-                 ? "/>\n"
-                 : fmt::format("><failure message=\"regressed\">{}</failure></testcase>\n", escaped(message));
+    cases += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", xml_text(row.model), xml_text(row.label));
+    cases +=
+        message.empty() ? "/>\n" : fmt::format("><failure message=\"regressed\">{}</failure></testcase>\n", message);
   }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"{}\" tests=\"{}\" "
       "failures=\"{}\">\n{}</testsuite>\n",
-      escaped(recipe), result.rows.size(), failures, cases);
+      xml_text(recipe), result.rows.size(), failures, cases);
 }
 
 }  // namespace gsp

@@ -1,12 +1,12 @@
 #include "experiments/check/export.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "experiments/curve/curve_csv.h"
+#include "experiments/output/quoting.h"
 #include "experiments/store/json_file.h"
 #include "experiments/sweep/sweep.h"
 #include "experiments/version.h"
@@ -28,9 +28,9 @@ constexpr Format kFormats[] = {{"csv", ExportFormat::Csv},
                                {"codec-compare", ExportFormat::CodecCompare}};
 
 std::string file_name(const std::string& text, const std::string& ending) {
-  std::string name;
-  for (unsigned char c : text) name += std::isalnum(c) || c == '.' || c == '-' || c == '_' ? static_cast<char>(c) : '-';
-  return name + ending;
+  std::string stem = file_stem(text);
+  std::replace(stem.begin(), stem.end(), ' ', '-');
+  return stem + ending;
 }
 
 Json compressai_json(const StoredCell& cell) {

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "experiments/curve/point_fields.h"
+#include "experiments/output/quoting.h"
 #include "mesh/atomic_file.h"
 #include "mesh/error.h"
 #include "mesh/read_file.h"
@@ -15,13 +16,6 @@
 namespace gsp {
 
 namespace {
-
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
 
 // One record of RFC 4180 from `text` at `at`, which moves behind it; lines are counted. Quoted fields may hold line
 // breaks.
@@ -91,9 +85,9 @@ CurvePoint point_of(const Row& row) {
   return point;
 }
 
+// Numbers as the shortest decimals that read back as the same.
 std::string text_of(const PointField& column, const CurvePoint& point) {
-  return std::visit([&](auto member) { return field(fmt::format(fmt::runtime(column.format), point.*member)); },
-                    column.member);
+  return std::visit([&](auto member) { return csv_field(fmt::format("{}", point.*member)); }, column.member);
 }
 
 }  // namespace

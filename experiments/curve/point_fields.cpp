@@ -11,7 +11,6 @@ const std::vector<PointField>& point_fields() {
   using P = CurvePoint;
   constexpr bool kMeasured = true;
   constexpr const char* kDiagonals = "diagonals";
-  constexpr const char* kShort = "{:.6g}";
   static const std::vector<PointField> all = {
       {"model", "", "file name without folder and ending", &P::model},
       {"method", "",
@@ -29,20 +28,19 @@ const std::vector<PointField>& point_fields() {
        "coordinate (`draco-qp11`)",
        &P::coder, kMeasured},
       {"bytes", "bytes", "decoded", &P::bytes, kMeasured},
-      {"bits_per_vertex", "bits", "8·bytes over the vertices of the input", &P::bits_per_vertex, kMeasured, kShort},
+      {"bits_per_vertex", "bits", "8·bytes over the vertices of the input", &P::bits_per_vertex, kMeasured},
       {"faces", "", "of the decoded surface", &P::faces, kMeasured},
       {"rms_forward", kDiagonals, "root mean square distance from the input to the decoded surface", &P::rms_forward,
-       kMeasured, kShort},
-      {"rms_backward", kDiagonals, "the same from the decoded surface to the input", &P::rms_backward, kMeasured,
-       kShort},
-      {"rms", kDiagonals, "the larger of the two", &P::rms, kMeasured, kShort},
-      {"hausdorff", kDiagonals, "largest sampled distance, both ways: a lower bound", &P::hausdorff, kMeasured, kShort},
-      {"psnr_db", "dB", "20·log10(1 / rms): the peak is the diagonal", &P::psnr_db, kMeasured, "{:.4f}"},
+       kMeasured},
+      {"rms_backward", kDiagonals, "the same from the decoded surface to the input", &P::rms_backward, kMeasured},
+      {"rms", kDiagonals, "the larger of the two", &P::rms, kMeasured},
+      {"hausdorff", kDiagonals, "largest sampled distance, both ways: a lower bound", &P::hausdorff, kMeasured},
+      {"psnr_db", "dB", "20·log10(1 / rms): the peak is the diagonal", &P::psnr_db, kMeasured},
       {"samples", "", "per direction, area-stratified", &P::samples, kMeasured},
-      {"standard_error_db", "dB", "of psnr_db, from the sampling", &P::standard_error_db, kMeasured, "{:.2g}"},
+      {"standard_error_db", "dB", "of psnr_db, from the sampling", &P::standard_error_db, kMeasured},
       {"remesh_error", kDiagonals,
        "rms of the uncoded remesh, the ceiling of the method's curve; 0 for the anchors, which have none",
-       &P::remesh_error, !kMeasured, kShort},
+       &P::remesh_error},
       {"seed", "", "of the samples", &P::seed, kMeasured},
       {"version", "", "of the gsp that measured it, with the commit", &P::version},
       {"options", "",

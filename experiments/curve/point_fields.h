@@ -23,7 +23,6 @@ struct PointField {
   PointMember member;
   /// True where a measurement fills it in, so that a store keeps it; the others follow from the cell and its remesh.
   bool measured = false;
-  const char* format = "{}";  ///< of fmt, in curve.csv: as many digits as mean something
 };
 
 /// All fields, in the order of the columns of curve.csv.

@@ -9,6 +9,7 @@
 #include <ostream>
 
 #include "experiments/cells/cell_options.h"
+#include "experiments/output/quoting.h"
 
 namespace gsp {
 
@@ -46,8 +47,8 @@ void print_bd(std::ostream& out, const std::string& first, const MethodSummary& 
 }
 
 void print_model(std::ostream& out, const CurveSummary& summary) {
-  out << summary.model << '\n';
-  if (!summary.failure.empty()) fmt::print(out, "  FAILED ({}): {}\n", summary.cause, summary.failure);
+  out << printable(summary.model) << '\n';
+  if (!summary.failure.empty()) fmt::print(out, "  FAILED ({}): {}\n", summary.cause, printable(summary.failure));
   if (summary.methods.empty()) return;
   const int width = name_width(summary);
   fmt::print(out, "  {:<{}}{:>6}{:>6}{:>11}{:>9}", "method", width, "base", "level", "positions", "ceiling");

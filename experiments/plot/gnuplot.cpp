@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "experiments/output/quoting.h"
 #include "mesh/atomic_file.h"
 #include "mesh/error.h"
 
@@ -58,19 +59,10 @@ void run_gnuplot(const std::string& folder, const std::string& script) {
 
 }  // namespace
 
-std::string gnuplot_quoted(const std::string& text) {
-  std::string result = "'";
-  for (char c : text)
-    if (c == '\'')
-      result += "''";
-    else
-      result += static_cast<unsigned char>(c) < 32 ? ' ' : c;
-  return result + "'";
-}
-
 std::string figure_script(const std::string& name, const std::string& setup, const std::string& commands, int width,
                           int height) {
-  std::string script = fmt::format("# Draws {0}.png and {0}.svg: run gnuplot on this file.\n{1}", name, setup);
+  std::string script =
+      fmt::format("# Draws {0}.png and {0}.svg: run gnuplot on this file.\n{1}", gnuplot_comment(name), setup);
   for (const auto& [terminal, ending] : {std::pair{"pngcairo", "png"}, std::pair{"svg", "svg"}})
     script += fmt::format("set terminal {} size {},{} background rgb 'white'\nset output {}\n{}unset output\n",
                           terminal, width, height, gnuplot_quoted(name + "." + ending), commands);

@@ -5,8 +5,7 @@
 
 namespace gsp {
 
-/// A text as gnuplot's single quotes take it; control characters become spaces.
-std::string gnuplot_quoted(const std::string& text);
+// NAME is a `file_stem` (output/quoting.h).
 
 /// The program that draws NAME.png and NAME.svg in its working folder: `setup` (settings and data), then `commands`
 /// once for each of the two. Width and height in pixels.

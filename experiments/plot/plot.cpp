@@ -7,6 +7,7 @@
 #include <iterator>
 #include <set>
 
+#include "experiments/output/quoting.h"
 #include "experiments/plot/gnuplot.h"
 
 namespace gsp {

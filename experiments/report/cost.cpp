@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "experiments/output/quoting.h"
 #include "experiments/plot/gnuplot.h"
 #include "mesh/error.h"
 #include "mesh/read_file.h"

@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "experiments/output/quoting.h"
+
 // Each file of the page as its bytes (page_files.S.in).
 #define GSP_PAGE_FILE(name)                \
   extern "C" const char gsp_page_##name[]; \
@@ -39,18 +41,6 @@ void replace(std::string& page, std::string_view mark, std::string_view text) {
   page.replace(page.find(mark), mark.size(), text);
 }
 
-/// JSON that no name in it can end the script element of early.
-std::string inside_script(const std::string& json) {
-  std::string safe;
-  for (char c : json) {
-    if (c == '<')
-      safe += "\\u003c";
-    else
-      safe += c;
-  }
-  return safe;
-}
-
 }  // namespace
 
 std::string report_page(const std::string& run_json) {
@@ -58,7 +48,7 @@ std::string report_page(const std::string& run_json) {
   for (const Part& part : kParts)
     replace(page, part.mark, {part.begin, static_cast<std::size_t>(part.end - part.begin)});
   // Last, since a name in it may look like a mark.
-  replace(page, "@@run.json@@", inside_script(run_json));
+  replace(page, "@@run.json@@", json_in_html(run_json));
   return page;
 }
 

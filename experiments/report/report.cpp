@@ -11,6 +11,7 @@
 #include "experiments/cells/cell_options.h"
 #include "experiments/curve/curve_csv.h"
 #include "experiments/curve/summary.h"
+#include "experiments/output/quoting.h"
 #include "experiments/report/page.h"
 #include "experiments/report/paper.h"
 #include "experiments/report/run_figures.h"
@@ -33,6 +34,13 @@ void write_text(const std::string& path, const std::string& text) {
 
 Json optional(const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(); }
 
+/// Every text of it as people read it, since names may hold any bytes.
+void make_printable(Json& json) {
+  if (json.is_string()) json = printable(json.get<std::string>());
+  if (json.is_structured())
+    for (Json& inside : json) make_printable(inside);
+}
+
 class Report {
  public:
   Report(const std::string& run_folder, std::string folder, const ReportOptions& options, Progress& progress)
@@ -51,7 +59,9 @@ class Report {
       result_.files.push_back(folder_ + "/" + figure.png);
       if (!figure.svg.empty()) result_.files.push_back(folder_ + "/" + figure.svg);
     }
-    write_text(result_.files.front(), report_page(run_json(figures).dump()));
+    Json run = run_json(figures);
+    make_printable(run);
+    write_text(result_.files.front(), report_page(run.dump()));
     return std::move(result_);
   }
 

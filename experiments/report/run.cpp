@@ -8,6 +8,7 @@
 
 #include "experiments/cells/cell_options.h"
 #include "experiments/curve/curve_csv.h"
+#include "experiments/output/quoting.h"
 
 namespace gsp {
 
@@ -45,7 +46,7 @@ StoredCell first_of(const CurvePoint& point, const fs::path& folder) {
   if (point.remesh_error > 0.0) {
     StageResult map;
     map.kind = StageKind::Parameterize;
-    const fs::path omega = folder / (point.model + "-omega.csv");
+    const fs::path omega = folder / (file_stem(point.model) + "-omega.csv");
     if (fs::exists(omega)) map.artefacts["omega"] = omega.string();
     cell.stages.push_back(map);
     cell.stages.push_back(remesh_stage(point));

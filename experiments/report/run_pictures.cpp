@@ -7,6 +7,7 @@
 #include "experiments/figures/picture.h"
 #include "experiments/figures/remesh_map.h"
 #include "experiments/figures/sector_disc.h"
+#include "experiments/output/quoting.h"
 #include "param/map/param_file.h"
 #include "remesh/semiregular_file.h"
 
@@ -50,13 +51,13 @@ void reference_figures(const StoredCell& cell, const std::string& folder, std::v
       render(map.surface, camera, with_patch_edges(with_isolines(plain_paint(), map, 4), map), size)};
   const std::string remesh = cell.artefact("remesh");
   if (!remesh.empty()) layout.push_back(remesh_image(read_semiregular(remesh), camera));
-  add_picture(figures, folder, "layout-" + cell.model, layout,
+  add_picture(figures, folder, "layout-" + file_stem(cell.model), layout,
               "Patches, iso-lines and remesh of " + cell.model + " by " + cell.label + " (the paper's figure 8).");
   const std::vector<MapMeasure> measures = map_measures(map, distortion(map), smoothness(map));
   std::vector<Image> panels;
   for (const char* name : {"anisotropy", "area"})
     panels.push_back(measure_image(map, camera, named(measures, name).column.values, named(measures, name).scale));
-  add_picture(figures, folder, "distortion-" + cell.model, panels,
+  add_picture(figures, folder, "distortion-" + file_stem(cell.model), panels,
               "Anisotropy and area distortion of " + cell.model + " by " + cell.label +
                   ", red from the worst 5% on (the paper's figure 2).");
 }
@@ -74,7 +75,7 @@ void smoothness_figure(const std::vector<const StoredCell*>& cells, const std::s
     panels.push_back(measure_image(map, make_camera(map.surface, {}), s.faces, scale));
     names += (names.empty() ? "" : ", ") + cell->label;
   }
-  add_picture(figures, folder, "smoothness-" + cells.front()->model, panels,
+  add_picture(figures, folder, "smoothness-" + file_stem(cells.front()->model), panels,
               "Jumps of the first derivatives on " + cells.front()->model + ": " + names +
                   "; one scale, red from the worst 5% of the first on (the paper's figure 1).");
 }

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "experiments/output/quoting.h"
 #include "experiments/plot/gnuplot.h"
 #include "experiments/plot/plot.h"
 #include "experiments/report/cost.h"
@@ -29,30 +30,25 @@ void add_figure(std::vector<RunFigure>& figures, const std::string& folder, cons
   figures.push_back({"figures/" + name + ".png", "figures/" + name + ".svg", caption});
 }
 
-/// A text as a field of inline data, where double quotes count and single ones do not.
-std::string data_text(const std::string& text) {
-  std::string result = "\"";
-  for (char c : text) result += c == '"' || c == '\\' || static_cast<unsigned char>(c) < 32 ? ' ' : c;
-  return result + '"';
-}
-
 std::string value_or_missing(const std::optional<double>& value, double scale = 1.0) {
   return value ? fmt::format("{:.6g}", scale * *value) : "NaN";
 }
 
-/// Groups of bars: a row a model, a column a label.
-std::string bars(const std::vector<std::string>& labels, const std::string& rows,
-                 const std::vector<std::string>& colors) {
+/// What makes groups of bars: a row a model, a column a label.
+std::string bars(const std::string& rows) {
   const auto groups = std::count(rows.begin(), rows.end(), '\n');
-  std::string script = fmt::format("set xrange [-0.6:{}.6]\n", groups - 1);
-  script += "$bars << EOD\n" + rows + "EOD\nset style data histogram\nset style histogram cluster gap 1\n" +
-            "set style fill solid border rgb 'white'\nset key outside right center Left reverse noenhanced\n" + kGrid +
-            "set xtics scale 0 noenhanced\n";
-  script += "bars = \"plot ";
+  return fmt::format("set xrange [-0.6:{}.6]\n$bars << EOD\n{}EOD\n", groups - 1, rows) +
+         "set style data histogram\nset style histogram cluster gap 1\nset style fill solid border rgb 'white'\n" +
+         "set key outside right center Left reverse noenhanced\n" + kGrid + "set xtics scale 0 noenhanced\n";
+}
+
+/// The command that draws them.
+std::string plot_bars(const std::vector<std::string>& labels, const std::vector<std::string>& colors) {
+  std::string command = "plot ";
   for (std::size_t i = 0; i < labels.size(); ++i)
-    script += fmt::format("{}$bars using {}:xtic(1) lc rgb '{}' title {}", i ? ", " : "", i + 2, colors[i],
-                          gnuplot_quoted(labels[i]));
-  return script + "\"\n";
+    command += fmt::format("{}$bars using {}:xtic(1) lc rgb '{}' title {}", i ? ", " : "", i + 2, colors[i],
+                           gnuplot_quoted(labels[i]));
+  return command + '\n';
 }
 
 /// The colours that labels have in the curves of the same run.
@@ -141,7 +137,7 @@ void curve_figures(const Run& run, const std::string& folder, std::vector<RunFig
   for (const StoredModel& model : run.models) {
     std::vector<CurveSeries> curves = run.curves(model.name);
     if (curves.empty()) continue;
-    const std::string name = "curve-" + model.name;
+    const std::string name = "curve-" + file_stem(model.name);
     add_figure(figures, folder, name, plot_script(name, {{model.name, curves}}),
                "Rate-distortion curves of " + model.name + ", ceilings dashed (the paper's figure 7).");
     panels.emplace_back(model.name, std::move(curves));
@@ -158,7 +154,7 @@ void bar_figure(const Run& run, const Findings& found, const std::string& folder
   if (labels.empty() || labels.size() > kMostBars) return;
   std::string rows;
   for (const StoredModel& model : run.models) {
-    rows += data_text(model.name);
+    rows += gnuplot_field(model.name);
     for (const std::string& label : labels) {
       const Comparison* c = found.comparison(model.name, label);
       rows += ' ' + value_or_missing(c ? c->bd_rate : std::nullopt);
@@ -166,12 +162,12 @@ void bar_figure(const Run& run, const Findings& found, const std::string& folder
     rows += '\n';
   }
   const std::string setup =
-      bars(labels, rows, curve_colors(run, labels)) +
-      "set datafile separator whitespace\nset ylabel 'bytes over those of the reference, %'\nset title " +
+      bars(rows) + "set datafile separator whitespace\nset ylabel 'bytes over those of the reference, %'\nset title " +
       gnuplot_quoted("reference: " + found.reference) +
       " noenhanced\n"
       "set xzeroaxis lt 1 lc rgb '#555555'\nset yrange [*<0:0<*]\n";
-  add_figure(figures, folder, "bd-rate", figure_script("bd-rate", setup, "eval(bars)\n", kBarsWidth, 500),
+  add_figure(figures, folder, "bd-rate",
+             figure_script("bd-rate", setup, plot_bars(labels, curve_colors(run, labels)), kBarsWidth, 500),
              fmt::format("BD-rate against {}: bytes that each needs more at equal PSNR, ceilings respected.",
                          found.reference));
 }
@@ -199,11 +195,12 @@ void heat_figure(const Run& run, const Findings& found, const std::string& folde
                           }));
 
   std::string setup = fmt::format(
-      "set xtics ({}) scale 0\nset ytics ({}) scale 0\nset xlabel '{}'\nset ylabel '{}'\nset xrange [-0.5:{}.5]\n"
+      "set xtics ({}) scale 0\nset ytics ({}) scale 0\nset xlabel {} noenhanced\nset ylabel {} noenhanced\n"
+      "set xrange [-0.5:{}.5]\n"
       "set yrange [-0.5:{}.5]\nset cbrange [-25:25]\nunset key\n"
       "set palette defined (-25 '#2166ac', 0 '#f7f7f7', 25 '#b2182b')\nset size square\n",
-      x.tics(), y.tics(), x.name(), y.name(), x.size() - 1, y.size() - 1);
-  std::string commands = fmt::format("set multiplot layout 1,{} title {}\n", panels.size(),
+      x.tics(), y.tics(), gnuplot_quoted(x.name()), gnuplot_quoted(y.name()), x.size() - 1, y.size() - 1);
+  std::string commands = fmt::format("set multiplot layout 1,{} title {} noenhanced\n", panels.size(),
                                      gnuplot_quoted("bytes over those of " + found.reference + ", %"));
   for (std::size_t i = 0; i < panels.size(); ++i) {
     setup += fmt::format("$heat{} << EOD\n{}EOD\n", i, panels[i].second);
@@ -226,7 +223,7 @@ void cost_figures(const Run& run, const Findings& found, const std::string& fold
     if (cell == run.cells.end()) continue;
     const CostCurve cost = cost_curve(read_omega_csv(cell->artefact("omega")));
     if (cost.bins.empty()) continue;
-    const std::string name = "cost-" + model.name;
+    const std::string name = "cost-" + file_stem(model.name);
     add_figure(
         figures, folder, name, cost_script(name, model.name, cost),
         fmt::format("Cost of vertex removals on {}, the paper's figure 5d: {}.", model.name, cost_in_words(cost)));
@@ -242,7 +239,7 @@ void error_figure(const Run& run, const std::string& folder, std::vector<RunFigu
   bool paper = false;
   std::string rows;
   for (const StoredModel& model : run.models) {
-    rows += data_text(model.name);
+    rows += gnuplot_field(model.name);
     for (const std::string& label : labels) {
       const auto cell = std::find_if(run.cells.begin(), run.cells.end(), [&](const StoredCell& c) {
         return c.model == model.name && c.label == label && has_map(c);
@@ -258,9 +255,9 @@ void error_figure(const Run& run, const std::string& folder, std::vector<RunFigu
     labels.push_back("paper, Table 1");
     colors.push_back("#d8a200");
   }
-  const std::string setup =
-      bars(labels, rows, colors) + "set ylabel 'remeshing error, 10^{-5} of the diagonal'\nset yrange [0:*]\n";
-  add_figure(figures, folder, "remesh-error", figure_script("remesh-error", setup, "eval(bars)\n", kBarsWidth, 500),
+  const std::string setup = bars(rows) + "set ylabel 'remeshing error, 10^{-5} of the diagonal'\nset yrange [0:*]\n";
+  add_figure(figures, folder, "remesh-error",
+             figure_script("remesh-error", setup, plot_bars(labels, colors), kBarsWidth, 500),
              "RMS distance of the uncoded remesh (the paper's Table 1); the level of the remesh decides it as much as "
              "the map.");
 }

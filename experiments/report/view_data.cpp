@@ -12,6 +12,7 @@
 #include "experiments/figures/map_measures.h"
 #include "experiments/figures/paint.h"
 #include "experiments/figures/remesh_map.h"
+#include "experiments/output/quoting.h"
 #include "mesh/io.h"
 #include "mesh/read_file.h"
 #include "metrics/surface_distance.h"
@@ -109,10 +110,12 @@ Json measures_json(const Parameterization& map) {
   return result;
 }
 
-/// At most kMostSizes of the measured sizes, the largest included, evenly spread over them.
+/// At most kMostSizes of the measured sizes, the largest included, evenly spread over them. Sizes under kLeastBytes are
+/// shown where there are no others.
 std::vector<CurvePoint> shown_points(const StoredCell& cell) {
   std::vector<CurvePoint> points = cell.points();
-  std::erase_if(points, [&](const CurvePoint& p) { return p.bytes < kLeastBytes && points.size() > 1; });
+  const auto small = [](const CurvePoint& p) { return p.bytes < kLeastBytes; };
+  if (!std::all_of(points.begin(), points.end(), small)) std::erase_if(points, small);
   std::sort(points.begin(), points.end(), [](const CurvePoint& a, const CurvePoint& b) { return a.bytes < b.bytes; });
   std::vector<CurvePoint> shown;
   const std::size_t count = std::min(kMostSizes, points.size());
@@ -181,8 +184,8 @@ std::string view_json(const StoredModel& model, const StoredCell& cell, Progress
   Json sizes = Json::array();
   for (std::size_t i = 0; i < points.size(); ++i)
     sizes.push_back(size_json(points[i], decoded[i], tree, bounding_box_diagonal(input), box));
-  const Json view = {{"model", model.name},
-                     {"label", cell.label},
+  const Json view = {{"model", printable(model.name)},
+                     {"label", printable(cell.label)},
                      {"level", level},
                      {"outward", orientation(input)},
                      {"camera", {triple(camera.right), triple(camera.up), triple(camera.toward)}},

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "experiments/output/quoting.h"
 #include "experiments/sweep/inbox.h"
 #include "experiments/sweep/task_list.h"
 #include "experiments/sweep/worker.h"
@@ -39,20 +40,16 @@ std::vector<std::string> output_of(const std::string& program, const std::vector
   return lines;
 }
 
-std::string shell_quoted(const std::string& text) {
-  std::string quoted = "'";
-  for (char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-// Array task k does the tasks k, k + width, k + 2 width and so on, so any number of them fits into one array.
-std::string array_script(const std::string& folder, const std::string& program, std::size_t tasks, std::size_t width) {
+// Array task k does the tasks k, k + width, k + 2 width and so on, so any number of them fits into one array. It runs
+// in the store's folder (sbatch --chdir), whose name an #SBATCH line could not quote, so that no name of it stands
+// here.
+std::string array_script(const std::string& program, std::size_t tasks, std::size_t width) {
   return fmt::format(
-      "#!/bin/sh\n#SBATCH --job-name=gsp-sweep\n#SBATCH --array=0-{}\n#SBATCH --output={}/slurm/%a.log\n"
+      "#!/bin/sh\n#SBATCH --job-name=gsp-sweep\n#SBATCH --array=0-{}\n#SBATCH --output=slurm/%a.log\n"
       "task=$SLURM_ARRAY_TASK_ID\nwhile [ \"$task\" -lt {} ]; do\n"
-      "  {} sweep-worker --store {} --task {}/slurm/$task.json --threads \"${{SLURM_CPUS_PER_TASK:-1}}\"\n"
+      "  {} sweep-worker --store . --task \"slurm/$task.json\" --threads \"${{SLURM_CPUS_PER_TASK:-1}}\"\n"
       "  task=$((task + {}))\ndone\n",
-      width - 1, folder, tasks, shell_quoted(program), shell_quoted(folder), shell_quoted(folder), width);
+      width - 1, tasks, shell_word(program), width);
 }
 
 void submit(const std::vector<Task>& tasks, const std::string& folder, const std::string& program) {
@@ -62,9 +59,9 @@ void submit(const std::vector<Task>& tasks, const std::string& folder, const std
     write_task(fmt::format("{}/{}.json", slurm_folder(folder), i), tasks[i]);
   const std::string script = slurm_folder(folder) + "/array.sh";
   AtomicFile file(script);
-  file.stream() << array_script(folder, program, tasks.size(), std::min(tasks.size(), kMostArrayTasks));
+  file.stream() << array_script(program, tasks.size(), std::min(tasks.size(), kMostArrayTasks));
   file.commit();
-  const std::vector<std::string> printed = output_of("sbatch", {"--parsable", script});
+  const std::vector<std::string> printed = output_of("sbatch", {"--parsable", "--chdir=" + folder, script});
   if (printed.empty()) throw Error(Cause::ToolMissing, "sbatch named no job");
   AtomicFile job(job_file(folder));
   // On a federation the cluster's name follows.

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -11,6 +12,8 @@
 #include "experiments/curve_job.h"
 #include "experiments/plot/plot.h"
 #include "experiments/version.h"
+#include "mesh/error.h"
+#include "mesh/random.h"
 #include "mesh/read_file.h"
 #include "temporary_folder.h"
 
@@ -56,7 +59,7 @@ TEST_CASE("curve.csv has the columns of the design and one row per point") {
     CHECK(std::count(names.begin(), names.end(), name) == 1);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] == "bytes") CHECK(fields[i] == "1024");
-    if (names[i] == "psnr_db") CHECK(fields[i] == "60.5000");
+    if (names[i] == "psnr_db") CHECK(fields[i] == "60.5");
     if (names[i] == "version") CHECK(fields[i] == version());
   }
 }
@@ -123,4 +126,57 @@ TEST_CASE("folders stand for the surfaces in them, in name order") {
   CHECK(files[3] == folder.file("c.stl"));
   const TemporaryFolder empty;
   CHECK_THROWS_AS(surface_files({empty.path().string()}), Error);
+}
+
+TEST_CASE("numbers of curve.csv read back to the last bit, and names to the last byte") {
+  const TemporaryFolder folder;
+  Random random(5);
+  std::vector<CurvePoint> points;
+  for (int i = 0; i < 1000; ++i) {
+    std::string name;
+    for (int k = 0; k < 20; ++k) name += static_cast<char>(1 + static_cast<int>(random.uniform() * 255.0));
+    CurvePoint point = sample_point(name, "gsp", 1 + static_cast<std::size_t>(1e6 * random.uniform()), 0.0);
+    for (double* number : {&point.gamma, &point.mu, &point.bits_per_vertex, &point.rms_forward, &point.rms_backward,
+                           &point.rms, &point.hausdorff, &point.psnr_db, &point.standard_error_db, &point.remesh_error})
+      *number = std::exp(40.0 * random.uniform() - 30.0);
+    points.push_back(point);
+  }
+  write_curve_csv(folder.file("curve.csv"), points);
+  const std::vector<CurvePoint> read = read_curve_csv(folder.file("curve.csv"));
+  REQUIRE(read.size() == points.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    const CurvePoint &a = points[i], &b = read[i];
+    CHECK((a.model == b.model && a.bytes == b.bytes && a.gamma == b.gamma && a.mu == b.mu));
+    CHECK(
+        (a.bits_per_vertex == b.bits_per_vertex && a.rms_forward == b.rms_forward && a.rms_backward == b.rms_backward));
+    CHECK((a.rms == b.rms && a.hausdorff == b.hausdorff && a.psnr_db == b.psnr_db));
+    CHECK((a.standard_error_db == b.standard_error_db && a.remesh_error == b.remesh_error));
+  }
+}
+
+TEST_CASE("a surface is one, however its path is spelled; names of links and shapes stay names") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("m.off")) << "x";
+  std::filesystem::create_symlink("m.off", folder.path() / "link.off");
+  const std::string path = folder.path().string();
+  const auto files = surface_files(
+      {path + "/m.off", path + "/./m.off", path + "/../" + folder.path().filename().string() + "/m.off", path});
+  REQUIRE(files.size() == 2);
+  CHECK(files[0] == path + "/m.off");
+  CHECK(files[1] == path + "/link.off");
+  CHECK(surface_place("m.off") == surface_place("./m.off"));
+  CHECK(surface_place("m.off") == surface_place(std::filesystem::current_path().string() + "/m.off"));
+  CHECK(surface_place("shape:torus") == "shape:torus");
+}
+
+TEST_CASE("a file whose name looks like a pattern is found, and a pattern without files says where it looked") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("a[1]*.off")) << "x";
+  CHECK(matching_models(folder.file("a[1]*.off")) == std::vector<std::string>{folder.file("a[1]*.off")});
+  try {
+    matching_models("no-such-folder/*.ply");
+    FAIL("nothing matches");
+  } catch (const Error& error) {
+    CHECK(std::string(error.what()).find(std::filesystem::current_path().string()) != std::string::npos);
+  }
 }

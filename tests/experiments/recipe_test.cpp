@@ -197,3 +197,14 @@ TEST_CASE("the recipes that come with the program say what they mean, and descri
   }
   CHECK(recipes >= 7);
 }
+
+TEST_CASE("blocks that spell one surface differently mean one model") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("m.off")) << "x";
+  const std::string path = folder.path().string();
+  const Recipe recipe = recipe_of("[[block]]\nmodels = [\"" + path + "/m.off\", \"" + path +
+                                  "/./m.off\"]\n[[block]]\nmodels = [\"" + path + "//m.off\"]\n");
+  REQUIRE(recipe.blocks.size() == 2);
+  CHECK(recipe.blocks[0].models == std::vector<std::string>{path + "/m.off"});
+  CHECK(recipe.blocks[1].models == recipe.blocks[0].models);
+}

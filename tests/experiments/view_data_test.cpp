@@ -34,8 +34,8 @@ std::vector<std::size_t> shown_sizes(const std::vector<std::size_t>& measured) {
   for (std::size_t bytes : measured) measure.points.emplace_back().bytes = bytes;
   cell.stages.push_back(measure);
   std::vector<std::size_t> sizes;
-  for (const auto& size : nlohmann::json::parse(view_json(model, cell, silent))["sizes"])
-    sizes.push_back(size["bytes"].get<std::size_t>());
+  const nlohmann::json view = nlohmann::json::parse(view_json(model, cell, silent));
+  for (const auto& size : view["sizes"]) sizes.push_back(size["bytes"].get<std::size_t>());
   return sizes;
 }
 
