@@ -4,6 +4,7 @@
 
 #include "cli/options.h"
 #include "cli/print.h"
+#include "experiments/output/decibels.h"
 #include "mesh/error.h"
 #include "mesh/io.h"
 #include "metrics/hausdorff.h"
@@ -66,7 +67,10 @@ Json report_of(const DistanceBounds& bounds) {
 }
 
 Json report_of(const Psnr& psnr) {
-  return {{"name", psnr.name}, {"db", psnr.db}, {"peak", psnr.peak}, {"formula", psnr.formula}};
+  Json report = {{"name", psnr.name}};
+  put_db(report, "db", psnr.db);
+  report.update({{"peak", psnr.peak}, {"formula", psnr.formula}});
+  return report;
 }
 
 Json metro_report(const Pair& pair, Progress& progress) {
@@ -88,16 +92,11 @@ int run_distance(const DistanceArguments& options, Context& context) {
   Progress progress = context.console.progress();
   const Pair pair(options);
   const SurfaceDistance d = surface_distance(pair.a, pair.tree_a, pair.b, pair.tree_b, options.distance, progress);
-  Json report = {{"forward", direction(d.forward)},
-                 {"backward", direction(d.backward)},
-                 {"mean", d.mean()},
-                 {"rms", d.rms()},
-                 {"quantile95", d.quantile95()},
-                 {"hausdorff", d.hausdorff()},
-                 {"diagonal", d.diagonal},
-                 {"psnr_db", d.psnr_db()},
-                 {"psnr_formula", diagonal_psnr(d).formula},
-                 {"standard_error_db", d.standard_error_db()}};
+  Json report = {
+      {"forward", direction(d.forward)}, {"backward", direction(d.backward)}, {"mean", d.mean()},      {"rms", d.rms()},
+      {"quantile95", d.quantile95()},    {"hausdorff", d.hausdorff()},        {"diagonal", d.diagonal}};
+  put_db(report, "psnr_db", d.psnr_db());
+  report.update({{"psnr_formula", diagonal_psnr(d).formula}, {"standard_error_db", d.standard_error_db()}});
   report["mpeg_d1"] = report_of(mpeg_d1_psnr(pair.a, d));
   if (options.mpeg)
     report["mpeg_d2"] = report_of(mpeg_d2_psnr(pair.a, pair.tree_a, pair.b, pair.tree_b, options.distance, progress));

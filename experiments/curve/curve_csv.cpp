@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <string_view>
 #include <type_traits>
 
 #include "experiments/curve/point_fields.h"
@@ -60,16 +61,18 @@ class Row {
     return fields_[column->second];
   }
 
-  void read(const char* name, std::string& value) const { value = text(name); }
+  void read(const PointField& field, std::string& value) const { value = text(field.name); }
 
   template <class Number>
-  void read(const char* name, Number& value) const {
-    const std::string& word = text(name);
+  void read(const PointField& field, Number& value) const {
+    const std::string& word = text(field.name);
     const auto end = word.data() + word.size();
     const auto [stop, error] = std::from_chars(word.data(), end, value);
     bool good = error == std::errc() && stop == end;
-    if constexpr (std::is_floating_point_v<Number>) good = good && std::isfinite(value);
-    if (!good) throw Error(Cause::Malformed, std::string(name) + " is no number: " + word, Element::Line, line_);
+    // Decibels alone may be infinite (output/decibels.h).
+    if constexpr (std::is_floating_point_v<Number>)
+      good = good && (std::isfinite(value) || (word == "inf" && std::string_view(field.unit) == "dB"));
+    if (!good) throw Error(Cause::Malformed, std::string(field.name) + " is no number: " + word, Element::Line, line_);
   }
 
  private:
@@ -81,7 +84,7 @@ class Row {
 CurvePoint point_of(const Row& row) {
   CurvePoint point;
   for (const PointField& field : point_fields())
-    std::visit([&](auto member) { row.read(field.name, point.*member); }, field.member);
+    std::visit([&](auto member) { row.read(field, point.*member); }, field.member);
   return point;
 }
 

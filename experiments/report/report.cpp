@@ -11,6 +11,7 @@
 #include "experiments/cells/cell_options.h"
 #include "experiments/curve/curve_csv.h"
 #include "experiments/curve/summary.h"
+#include "experiments/output/decibels.h"
 #include "experiments/output/quoting.h"
 #include "experiments/report/page.h"
 #include "experiments/report/paper.h"
@@ -122,20 +123,20 @@ class Report {
     const Comparison* comparison = result_.findings.comparison(cell.model, cell.label);
     const auto view = views_.find({cell.model, cell.label});
     const bool anchor = is_anchor(cell.options.method);
-    return {{"label", cell.label},
-            {"method", cell.options.method},
-            {"mode", stream_mode_name(cell.options.mode)},
-            {"ceiling_db", optional(cell.number("ceiling_db"))},
-            {"base_vertices", optional(cell.number("base_vertices"))},
-            {"level", optional(cell.number("level"))},
-            {"positions", positions.empty() ? Json() : Json(positions)},
-            {"remesh_error", optional(cell.number("remesh_error"))},
-            {"paper_error", anchor ? Json() : optional(paper_remesh_error(cell.model))},
-            {"bytes_at", bytes_at},
-            {"bd_rate", comparison ? optional(comparison->bd_rate) : Json()},
-            {"bd_note", comparison ? comparison->note : ""},
-            {"view", view == views_.end() ? Json() : Json(view->second)},
-            {"points", points}};
+    Json curve = {
+        {"label", cell.label}, {"method", cell.options.method}, {"mode", stream_mode_name(cell.options.mode)}};
+    put_db(curve, "ceiling_db", ceiling_db(cell.points()));
+    curve.update({{"base_vertices", optional(cell.number("base_vertices"))},
+                  {"level", optional(cell.number("level"))},
+                  {"positions", positions.empty() ? Json() : Json(positions)},
+                  {"remesh_error", optional(cell.number("remesh_error"))},
+                  {"paper_error", anchor ? Json() : optional(paper_remesh_error(cell.model))},
+                  {"bytes_at", bytes_at},
+                  {"bd_rate", comparison ? optional(comparison->bd_rate) : Json()},
+                  {"bd_note", comparison ? comparison->note : ""},
+                  {"view", view == views_.end() ? Json() : Json(view->second)},
+                  {"points", points}});
+    return curve;
   }
 
   Json model_json(const StoredModel& model) const {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "experiments/cells/models.h"
 #include "experiments/curve/point_fields.h"
 #include "experiments/curve/stages.h"
 #include "experiments/store/database.h"
@@ -148,8 +149,10 @@ std::vector<StoredCell> stored_cells(const Plan& plan, const std::map<std::strin
     cell.model = planned.model;
     cell.label = planned.label;
     cell.options = planned.options;
-    cell.cause = models[planned.model]->cause;
-    cell.failure = models[planned.model]->failure;
+    const StoredModel& model = *models[planned.model];
+    if (!is_shape(model.source)) cell.surface = model.surface_key;
+    cell.cause = model.cause;
+    cell.failure = model.failure;
     for (const auto& [kind, key] : planned.keys) {
       const auto found = results.find(key);
       if (found == results.end()) continue;

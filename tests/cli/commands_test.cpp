@@ -273,3 +273,13 @@ TEST_CASE("curve draws what works, names what fails, and ends with status 1 for 
     CHECK(size_of(to + "/" + name) > 200);
   for (const auto& file : report["files"]) CHECK(std::filesystem::exists(file.get<std::string>()));
 }
+
+TEST_CASE("equal surfaces have an infinite PSNR: null in JSON, with the reason") {
+  const TemporaryFolder folder;
+  const std::string path = write_bumpy(folder);
+  const json report = json::parse(gsp_run({"distance", path, path, "--samples", "2000", "--mpeg", "--json"}).out);
+  CHECK(report["psnr_db"].is_null());
+  CHECK(report["psnr_db_reason"].get<std::string>().find("exactly") != std::string::npos);
+  CHECK(report["mpeg_d1"]["db"].is_null());
+  CHECK(report["mpeg_d2"]["db_reason"].is_string());
+}

@@ -180,3 +180,21 @@ TEST_CASE("a file whose name looks like a pattern is found, and a pattern withou
     CHECK(std::string(error.what()).find(std::filesystem::current_path().string()) != std::string::npos);
   }
 }
+
+TEST_CASE("exact points round trip by curve.csv, and curves without any height are drawn") {
+  const TemporaryFolder folder;
+  const double exact = std::numeric_limits<double>::infinity();
+  const std::vector<CurvePoint> points = {sample_point("cube", "gsp", 300, exact),
+                                          sample_point("cube", "draco", 200, exact)};
+  write_curve_csv(folder.file("curve.csv"), points);
+  const std::vector<CurvePoint> read = read_curve_csv(folder.file("curve.csv"));
+  REQUIRE(read.size() == 2);
+  CHECK(read[0].psnr_db == exact);
+  plot(folder.path().string(), "flat", {{"cube", curves_of(points)}});
+  CHECK(read_file(folder.file("flat.svg")).find("exact from 200 bytes") != std::string::npos);
+  plot(folder.path().string(), "both", {{"cube", curves_of(points)}, {"again", curves_of(points)}});
+  std::string text = read_file(folder.file("curve.csv"));
+  text.replace(text.find(",inf,"), 5, ",nan,");
+  std::ofstream(folder.file("curve.csv")) << text;
+  CHECK_THROWS_AS(read_curve_csv(folder.file("curve.csv")), Error);
+}

@@ -78,3 +78,26 @@ TEST_CASE("curves are compared over the bytes that both cover only") {
   CHECK_FALSE(mean_gain(high, {}, 1, 1e9));
   CHECK_FALSE(mean_gain(high, low, 600, 500));
 }
+
+TEST_CASE("an exact point ends a curve: its size is reached, and nothing is interpolated towards it") {
+  const double exact = std::numeric_limits<double>::infinity();
+  const RateCurve curve = upper_envelope({{2000, exact}, {1000, 50}, {500, 40}, {3000, exact}, {700, std::nan("")}});
+  REQUIRE(curve.size() == 3);
+  CHECK(*exact_from(curve) == 2000);
+  CHECK(finite_part(curve).size() == 2);
+  CHECK(*psnr_at(curve, 1000) == 50);
+  CHECK(*psnr_at(curve, 1999) == 50);
+  CHECK(*psnr_at(curve, 2000) == exact);
+  CHECK(*bytes_at(curve, 45) == Approx(500 * std::sqrt(2.0)));
+  CHECK(*bytes_at(curve, 60) == 2000);
+  const RateCurve other = {{500, 35}, {2500, 35 + 5 * std::log2(5.0)}};
+  const auto gain = mean_gain(curve, other, 0, 1e9);
+  REQUIRE(gain);
+  CHECK(gain->to_bytes == 1000);
+  CHECK(gain->mean_db == Approx(7.5));
+  const RateCurve only = {{100, exact}};
+  CHECK(finite_part(only).empty());
+  CHECK(*bytes_at(only, 70) == 100);
+  CHECK_FALSE(mean_gain(only, other, 0, 1e9));
+  CHECK_FALSE(exact_from(other));
+}
