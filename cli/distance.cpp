@@ -128,12 +128,12 @@ void add_distance(CLI::App& app, Context& context) {
   command.sampling_options(options->distance.samples, options->distance.seed);
   command.number("--tolerance-db", options->distance.tolerance_db, 0.0, 10.0,
                  "add samples until the RMS's standard error is at most this, 0 for no more than --samples");
-  command.number("--hausdorff-tolerance", options->hausdorff_tolerance, 0.0, 1.0,
-                 "also enclose the Hausdorff distance in certain bounds, this much apart; 0 for samples alone");
+  command.number_or_none("--hausdorff-tolerance", options->hausdorff_tolerance, HausdorffOptions::kLeastTolerance, 1.0,
+                         "also enclose the Hausdorff distance in certain bounds, this much apart; 0 for samples alone");
   command.flag("--metro", options->metro, "also what Metro 4.07 computes, with its samples and averages");
   command.flag("--mpeg", options->mpeg, "also MPEG's D2 PSNR (point to plane)");
-  command.optional_file("--per-vertex", options->per_vertex,
-                        "also write A as PLY with each vertex's distance and a colour");
+  command.optional_output("--per-vertex", options->per_vertex, Content::Ply,
+                          "also write A as PLY with each vertex's distance and a colour");
   command.footer(
       "Forward is from A to B, and beneath both directions stands the larger number of the two. Mean, RMS and the 95%\n"
       "quantile are over area; Hausdorff is the largest over the samples, which --hausdorff-tolerance encloses from "

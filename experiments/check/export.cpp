@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "experiments/curve/curve_csv.h"
@@ -94,9 +93,7 @@ ExportFormat export_format_of(const std::string& word) {
 
 std::vector<std::string> export_cells(const std::vector<StoredCell>& cells, const std::string& recipe,
                                       ExportFormat format, const std::string& folder) {
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed) throw Error(Cause::CannotWrite, "cannot make " + folder + ": " + failed.message());
+  make_folder(folder);
   std::vector<std::string> files;
   const auto next = [&](const std::string& name, const std::string& ending) {
     return files.emplace_back(folder + '/' + file_name(name, ending));

@@ -47,7 +47,7 @@ class Report {
   Report(const std::string& run_folder, std::string folder, const ReportOptions& options, Progress& progress)
       : run_(read_run(run_folder, options.recipe)), folder_(std::move(folder)), options_(options), progress_(progress) {
     result_.findings = findings(run_);
-    std::filesystem::create_directories(folder_);
+    make_folder(folder_);
   }
 
   ReportResult make() {
@@ -100,7 +100,7 @@ class Report {
     for (const StoredModel& model : run_.models) {
       if (model.path.empty()) continue;
       for (const StoredCell* cell : viewed_cells(model)) {
-        std::filesystem::create_directories(folder_ + "/views");
+        make_folder(folder_ + "/views");
         const std::string name = fmt::format("views/{}.js", views_.size());
         Progress named = progress_.within(model.name + ", " + cell->label);
         write_text(folder_ + "/" + name, fmt::format("gspView(\"{}\", {});\n", name, view_json(model, *cell, named)));

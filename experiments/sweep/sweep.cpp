@@ -10,6 +10,7 @@
 #include "experiments/sweep/plan.h"
 #include "experiments/sweep/slurm.h"
 #include "experiments/sweep/worker_pool.h"
+#include "mesh/atomic_file.h"
 #include "mesh/io.h"
 
 namespace gsp {
@@ -35,7 +36,7 @@ void forget_failures(Store& store, const Plan& plan, bool all) {
 void keep_surface(const std::string& folder, const std::string& key, const Mesh& mesh) {
   const std::string path = folder + '/' + surface_path(key);
   if (fs::exists(path)) return;
-  fs::create_directories(fs::path(path).parent_path());
+  make_folder(fs::path(path).parent_path().string());
   write_mesh(path, mesh);
 }
 

@@ -72,7 +72,7 @@ TEST_CASE("every command that reads a file refuses one that is not there with st
        std::vector<std::vector<std::string>>{{"info", missing},
                                              {"parameterize", missing, "-o", output},
                                              {"remesh", missing, "-o", output},
-                                             {"encode", missing, "-o", output},
+                                             {"encode", missing, "-o", folder.file("output.pgc")},
                                              {"decode", missing, "-o", output},
                                              {"distance", missing, missing},
                                              {"distortion", missing}}) {
@@ -262,6 +262,7 @@ TEST_CASE("curve draws what works, names what fails, and ends with status 1 for 
                            "embedded,fixed", "--json"});
   CAPTURE(ran.err);
   CHECK(ran.status == 1);
+  CHECK(contains(ran.err, "gsp: bad: "));
   const json report = json::parse(ran.out);
   CHECK(report["models"][0]["error"]["cause"].is_string());
   CHECK_FALSE(report["models"][1].contains("error"));
