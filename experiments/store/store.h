@@ -108,9 +108,10 @@ std::vector<StoredCell> stored_cells(const Plan& plan, const std::map<std::strin
 /// not be written.
 class Store {
  public:
-  /// Opens what `gsp sweep --store` made. Throws Error(CannotOpen) where there is no store in the folder.
+  /// Opens what `gsp sweep --store` made, to be read: nothing in the folder changes, and it may be one that cannot be
+  /// written. Throws Error(CannotOpen) where there is no store in the folder, or it may not be read.
   static Store open(const std::string& folder);
-  /// The same, made where there is none.
+  /// The same to be written, made where there is none. Only while its `FolderLock` is held.
   static Store create(const std::string& folder);
   ~Store();
   Store(Store&&) noexcept;

@@ -47,8 +47,9 @@ bool SweepResult::failed() const {
 }
 
 SweepResult sweep(const Recipe& recipe, const std::string& folder, const SweepOptions& options, Progress& progress) {
+  make_folder(folder);
+  const FolderLock lock(folder);  // before the database, which two sweeps would make at once
   Store store = Store::create(folder);
-  const FolderLock lock(folder);
   const SlurmState slurm = slurm_state(folder);
   if (slurm.active() && !options.slurm)
     throw Error(Cause::CannotWrite, "Slurm job " + slurm.job + " is at work on " + folder);
