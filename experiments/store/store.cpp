@@ -10,6 +10,7 @@
 #include "experiments/curve/point_fields.h"
 #include "experiments/curve/stages.h"
 #include "experiments/store/database.h"
+#include "mesh/atomic_file.h"
 
 namespace gsp {
 
@@ -264,9 +265,7 @@ struct Store::Impl {
 Store::Store(std::string folder, bool create) : folder_(std::move(folder)) {
   const std::string path = folder_ + "/results.sqlite";
   if (create) {
-    std::error_code failed;
-    std::filesystem::create_directories(folder_ + "/artefacts", failed);
-    if (failed) throw Error(Cause::CannotWrite, "cannot make " + folder_ + ": " + failed.message());
+    make_folder(folder_ + "/artefacts");
   } else if (std::error_code failed; !std::filesystem::is_regular_file(path, failed)) {
     throw Error(Cause::CannotOpen, folder_ + " holds no results.sqlite: gsp sweep makes such a folder");
   }
