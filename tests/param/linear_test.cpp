@@ -264,10 +264,10 @@ TEST_CASE("a solve leaves the number of threads of OpenBLAS and OpenMP as it fou
   const Eigen::MatrixX2d right = Eigen::MatrixX2d::Ones(40, 2);
   Eigen::MatrixX2d x;
   CHECK(solve_sparse(identity, right, x));
-  CHECK(x == right);
+  CHECK((x == right));
   CholeskySolver cholesky;
   CHECK(cholesky.factorize(identity));
-  CHECK(cholesky.solve(right.col(0)) == right.col(0));
+  CHECK((cholesky.solve(right.col(0)) == right.col(0)));
   CHECK(blas() == 2);
   CHECK(levels() == 1);
   set_blas(blas_before);
