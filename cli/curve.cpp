@@ -22,6 +22,7 @@ struct CurveArguments {
   std::string wavelet = "loop";
   std::vector<std::string> modes = {stream_mode_name(StreamMode::Embedded)};
   bool no_anchors = false;
+  ReadOptions read;
   CurveOptions curve;
 };
 
@@ -33,7 +34,8 @@ int run_curve(CurveArguments& options, Context& context) {
   options.curve.encode.wavelet = wavelet_of(options.wavelet);
   options.curve.modes.clear();
   for (const std::string& word : options.modes) options.curve.modes.push_back(stream_mode_of(word));
-  const CurveJobResult job = curve_job(surface_files(options.meshes), options.output, options.curve, progress);
+  const CurveJobResult job =
+      curve_job(surface_files(options.meshes), options.output, options.read, options.curve, progress);
   if (context.json) {
     print_report(context, {{"models", summaries_report(job.models)}, {"files", job.files}});
   } else {
@@ -53,6 +55,7 @@ void add_curve(CLI::App& app, Context& context) {
   command.output("DIR", options->output, "folder for curve.csv and the figures");
   command.choices("--methods", options->methods, map_method_words(),
                   "maps to compare on the base vertices of one simplification");
+  command.read_options(options->read);
   command.parameterize_options(options->curve.parameterize);
   command.remesh_options(options->curve.remesh);
   command.encode_options(options->wavelet, options->curve.encode);

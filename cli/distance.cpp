@@ -2,10 +2,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/input.h"
 #include "cli/options.h"
 #include "cli/print.h"
 #include "mesh/error.h"
-#include "mesh/io.h"
 #include "metrics/hausdorff.h"
 #include "metrics/metro.h"
 #include "metrics/picture.h"
@@ -18,14 +18,15 @@ namespace {
 
 struct DistanceArguments {
   std::string a, b, per_vertex;
+  ReadOptions read;
   DistanceOptions distance;
   double hausdorff_tolerance = 0.0;
   bool metro = false, mpeg = false;
 };
 
-SurfaceTree tree_of(const Mesh& mesh, const std::string& path) {
+SurfaceTree tree_of(const SurfaceFile& file, const std::string& path) {
   try {
-    return SurfaceTree(mesh);
+    return in_places_of(file, [&] { return SurfaceTree(file.mesh); });
   } catch (const Error& error) {
     throw error.within(path);
   }
@@ -33,12 +34,16 @@ SurfaceTree tree_of(const Mesh& mesh, const std::string& path) {
 
 /// Both surfaces and their trees, each built once for all that is measured.
 struct Pair {
-  explicit Pair(const DistanceArguments& options)
-      : a(read_mesh(options.a)),
-        b(read_mesh(options.b)),
-        tree_a(tree_of(a, options.a)),
-        tree_b(tree_of(b, options.b)) {}
-  Mesh a, b;
+  Pair(const Pair&) = delete;
+  Pair(const DistanceArguments& options, Context& context)
+      : file_a(read_input(options.a, options.read, context)),
+        file_b(read_input(options.b, options.read, context)),
+        a(file_a.mesh),
+        b(file_b.mesh),
+        tree_a(tree_of(file_a, options.a)),
+        tree_b(tree_of(file_b, options.b)) {}
+  SurfaceFile file_a, file_b;
+  const Mesh &a, &b;
   SurfaceTree tree_a, tree_b;
 };
 
@@ -86,7 +91,7 @@ void write_per_vertex(const std::string& path, const Pair& pair, const SurfaceDi
 
 int run_distance(const DistanceArguments& options, Context& context) {
   Progress progress = context.console.progress();
-  const Pair pair(options);
+  const Pair pair(options, context);
   const SurfaceDistance d = surface_distance(pair.a, pair.tree_a, pair.b, pair.tree_b, options.distance, progress);
   Json report = {{"forward", direction(d.forward)},
                  {"backward", direction(d.backward)},
@@ -126,6 +131,7 @@ void add_distance(CLI::App& app, Context& context) {
   auto options = std::make_shared<DistanceArguments>();
   command.argument("A", options->a, "reference surface; distances are in its units");
   command.argument("B", options->b, "the other surface");
+  command.read_options(options->read);
   command.sampling_options(options->distance.samples, options->distance.seed);
   command.number("--tolerance-db", options->distance.tolerance_db, 0.0, 10.0,
                  "add samples until the RMS's standard error is at most this, 0 for no more than --samples");

@@ -18,6 +18,7 @@ struct EncodeArguments {
   std::string mesh, output;
   // Ahead of Loop on the paper's models by 0.4 dB, on rougher maps by more (bench/README.md).
   std::string wavelet = wavelet_name(Wavelet::ButterflyLifted);
+  ReadOptions read;
   EncodeOptions encode;
   std::string mode = stream_mode_name(StreamMode::Embedded);
   std::size_t bytes = 0;
@@ -54,7 +55,7 @@ Bytes fixed_stream(const SemiregularMesh& mesh, const EncodeOptions& encode_opti
 
 int run_encode(const EncodeArguments& options, Context& context) {
   Progress progress = context.console.progress();
-  const SemiregularMesh mesh = read_or_recover(options.mesh);
+  const SemiregularMesh mesh = read_or_recover(options.mesh, options.read);
   const bool fixed = stream_mode_of(options.mode) == StreamMode::Fixed;
   if (fixed && options.bytes == 0 && options.psnr == 0.0)
     throw Error(Cause::BadOption, "--mode fixed needs --bytes or --psnr");
@@ -90,6 +91,7 @@ void add_encode(CLI::App& app, Context& context) {
   auto options = std::make_shared<EncodeArguments>();
   command.argument("MESH", options->mesh, "semi-regular mesh: *.sr.ply, or any mesh with subdivision connectivity");
   command.output("STREAM", options->output, "the stream, *.pgc");
+  command.read_options(options->read);
   command.encode_options(options->wavelet, options->encode);
   command.size("--bytes", options->bytes, 0, std::numeric_limits<std::size_t>::max(),
                "stop after N bytes; 0 keeps the whole stream");

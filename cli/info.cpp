@@ -5,6 +5,7 @@
 #include "cli/print.h"
 #include "mesh/io.h"
 #include "mesh/topology.h"
+#include "mesh/weld.h"
 
 namespace gsp::cli {
 
@@ -25,11 +26,13 @@ Json topology(const Mesh& mesh, const TopologyReport& report) {
   return {{"vertices", report.vertices},
           {"faces", report.faces},
           {"boundary_loops", report.boundary_loops},
+          {"boundary_edges", report.boundary_edges},
           {"diagonal", report.non_finite_vertices.empty() ? Json(bounding_box_diagonal(mesh)) : Json()},
           {"isolated_vertices", report.isolated_vertices.size()},
           {"duplicate_positions", report.duplicate_positions},
           {"zero_area_faces", report.zero_area_faces.size()},
           {"non_finite_vertices", report.non_finite_vertices.size()},
+          {"out_of_range_faces", report.out_of_range_faces.size()},
           {"repeated_index_faces", report.repeated_index_faces.size()},
           {"duplicate_faces", report.duplicate_faces.size()},
           {"non_manifold_edges", report.non_manifold_edges.size()},
@@ -39,15 +42,34 @@ Json topology(const Mesh& mesh, const TopologyReport& report) {
           {"component_list", components}};
 }
 
+/// What `--weld` would do to the boundary, exactly or within what corners differ by that were rounded to single
+/// precision.
+Json weld_report(const Mesh& mesh, int boundary_edges) {
+  constexpr double kRounded = 1e-6;
+  const auto effect = [&](double share) {
+    const WeldedMesh welded = weld(mesh, share);
+    return std::pair(mesh.vertex_count() - welded.mesh.vertex_count(),
+                     boundary_edges - topology_report(welded.mesh).boundary_edges);
+  };
+  const auto exact = effect(0.0), rounded = effect(kRounded);
+  const bool exact_is_enough = exact.second >= rounded.second;
+  const auto [joined, closed] = exact_is_enough ? exact : rounded;
+  return {{"joins_vertices", joined},
+          {"closes_boundary_edges", closed},
+          {"asked_for_by", closed > 0 ? Json(exact_is_enough ? "--weld exact" : "--weld 1e-6") : Json()}};
+}
+
 // A file that cannot be read is an answer here, not a failure to give one.
-int info(const std::string& path, const Context& context) {
+int info(const std::string& path, const ReadOptions& options, const Context& context) {
   Json report = {{"file", path}};
   std::optional<Error> refusal;
   try {
-    const Mesh mesh = read_mesh(path);
-    const TopologyReport found = topology_report(mesh);
-    report.update(topology(mesh, found));
-    refusal = found.refusal;
+    const SurfaceFile file = read_surface(path, options);
+    const TopologyReport found = topology_report(file.mesh);
+    report.update(topology(file.mesh, found));
+    if (found.boundary_edges > 0) report["weld"] = weld_report(file.mesh, found.boundary_edges);
+    if (!file.notes.empty()) report["notes"] = file.notes;
+    if (found.refusal) refusal = in_file(*found.refusal, file.numbering);
   } catch (const Error& error) {
     if (exit_status(error.cause()) != exit_status(Cause::CannotOpen)) throw;
     refusal = error;
@@ -63,8 +85,10 @@ int info(const std::string& path, const Context& context) {
 void add_info(CLI::App& app, Context& context) {
   Command command(app, context, "info", "what a surface is, and why it cannot be used");
   auto path = std::make_shared<std::string>();
+  auto options = std::make_shared<ReadOptions>();
   command.argument("MESH", *path, "surface: PLY, OBJ, OFF or STL");
-  command.on_run([path, &context] { return info(*path, context); });
+  command.read_options(*options);
+  command.on_run([path, options, &context] { return info(*path, *options, context); });
 }
 
 }  // namespace gsp::cli

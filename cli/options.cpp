@@ -251,6 +251,25 @@ void Command::parameterize_options(ParameterizeOptions& options) {
   axis_word("weights", &CellOptions::parameterize, options, "of the linear objective and of corner relaxation");
 }
 
+void Command::read_options(ReadOptions& options) {
+  constexpr double kLargest = ReadOptions::kLargestWeld;
+  app_->add_option_function<std::string>(
+          "--weld",
+          [&options](const std::string& word) {
+            double share = 0.0;
+            options.weld = parse(word, share) ? share : 0.0;
+          },
+          fmt::format(
+              "join vertices at the same place (exact), or within X of the bounding box's diagonal of each other, "
+              "as in surfaces split along seams and rounded STL [none; exact or 0 to {}]",
+              kLargest))
+      ->check([](const std::string& word) {
+        return word == "exact" ? std::string()
+                               : refusal(word, 0.0, kLargest, fmt::format("exact or {}", range_of(0.0, kLargest)));
+      })
+      ->option_text("exact|X");
+}
+
 void Command::remesh_options(RemeshOptions& options) {
   axis_integer_or_auto("level", options.level, RemeshOptions::kAutoLevel,
                        "quadrisections of the base; auto is the first level with as many faces as the input");

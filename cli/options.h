@@ -9,7 +9,7 @@
 #include "cli/command.h"
 #include "coder/codec.h"
 #include "experiments/cells/cell_options.h"
-#include "mesh/mesh.h"
+#include "mesh/io.h"
 #include "param/parameterize.h"
 #include "remesh/remesh.h"
 
@@ -61,6 +61,8 @@ class Command {
   /// What the command does when all its options are right.
   void on_run(std::function<int()> action);
 
+  /// --weld: how the surfaces of the command are read.
+  void read_options(ReadOptions& options);
   // The options of a stage, the same wherever the stage is run.
   void parameterize_options(ParameterizeOptions& options);
   void remesh_options(RemeshOptions& options);

@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/check_report.h"
+#include "cli/input.h"
 #include "cli/options.h"
 #include "cli/print.h"
 #include "experiments/cells/cell_options.h"
 #include "experiments/plot/gnuplot.h"
 #include "experiments/report/cost.h"
-#include "mesh/io.h"
 #include "param/map/param_file.h"
 
 namespace gsp::cli {
@@ -21,6 +21,7 @@ namespace {
 struct ParameterizeArguments {
   std::string mesh, output, omega_csv, omega_plot;
   std::string method = "gsp";
+  ReadOptions read;
   ParameterizeOptions parameterize;
   bool check = false;
 };
@@ -42,8 +43,9 @@ Json stages(const CostCurve& cost) {
 int run_parameterize(ParameterizeArguments& options, Context& context) {
   Progress progress = context.console.progress();
   options.parameterize.method = method_of(options.method);
-  const Mesh mesh = read_mesh(options.mesh);
-  const ParameterizeResult result = parameterize(mesh, options.parameterize, progress);
+  const SurfaceFile file = read_input(options.mesh, options.read, context);
+  const ParameterizeResult result =
+      in_places_of(file, [&] { return parameterize(file.mesh, options.parameterize, progress); });
   write_parameterization(options.output, result.map);
   if (!options.omega_csv.empty()) write_omega_csv(options.omega_csv, result.omega);
   const CostCurve cost = cost_curve(result.omega);
@@ -60,7 +62,7 @@ int run_parameterize(ParameterizeArguments& options, Context& context) {
                  {"corners_moved", result.corners_moved},
                  {"base_edges_flipped", result.base_edges_flipped},
                  {"flips_before_repair", result.flips_before_repair},
-                 {"vertices_added", result.map.surface.vertex_count() - mesh.vertex_count()},
+                 {"vertices_added", result.map.surface.vertex_count() - file.mesh.vertex_count()},
                  {"vertices_held", result.held_vertices},
                  {"cost_stages_begin", stages(cost)},
                  {"output", options.output}};
@@ -81,6 +83,7 @@ void add_parameterize(CLI::App& app, Context& context) {
   auto options = std::make_shared<ParameterizeArguments>();
   command.argument("MESH", options->mesh, "surface: PLY, OBJ, OFF or STL");
   command.output("MAP", options->output, "the map, *.param.ply");
+  command.read_options(options->read);
   command.choice("--method", options->method, map_method_words(),
                  "the paper's map, or a baseline on the same base vertices");
   command.parameterize_options(options->parameterize);

@@ -53,6 +53,7 @@ void add_picture(CLI::App& app, Context& context) {
   measures.pop_back();  // smoothness is a subject of its own
   command.choice("--measure", options->picture.measure, measures, "of distortion: gray is neutral, red the worst 5%");
   command.integer("--lines", options->picture.density, 1, 1024, "of isolines: lines across a patch, each way");
+  command.read_options(options->picture.read);
   command.remesh_options(options->picture.remesh);
   command.optional_file("--to", options->picture.other, "of distance: the surface to measure to");
   command.direction("--view", options->picture.view.toward, "from where it is seen; auto shows the broadest side");

@@ -73,6 +73,7 @@ Json error_report(const Error& error) {
   if (error.index()) {
     report["element"] = element_name(error.element());
     report["index"] = *error.index();
+    if (error.place()->end) report["end"] = *error.place()->end;
   }
   return report;
 }

@@ -18,6 +18,7 @@
 #include "coder/quantizer.h"
 #include "coder/rate_distortion.h"
 #include "coder/wavelet_transform.h"
+#include "mesh/topology.h"
 #include "mesh/words.h"
 
 namespace gsp {
@@ -33,13 +34,7 @@ void check(const SemiregularMesh& mesh, const EncodeOptions& options) {
     throw Error(Cause::BadOption,
                 "tangential_ratio " + std::to_string(options.tangential_ratio) + " is not 1, 2, 4 or 8");
   if (mesh.base_faces.empty()) throw Error(Cause::NoFaces, "a mesh without base faces cannot be coded");
-  // Squares and their sums must stay finite.
-  constexpr double kLargest = 1e100;
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-    for (double x : mesh.positions[v])
-      if (!(std::abs(x) <= kLargest))
-        throw Error(Cause::NonFinite, "a coordinate is not finite or too large", Element::Vertex,
-                    static_cast<long long>(v));
+  require_computable(mesh.positions);
   std::vector<bool> used(mesh.base_vertices, false);
   for (const Triangle& t : base_level(mesh.base_vertices, mesh.base_faces).faces)
     for (int v : t) used[v] = true;

@@ -38,8 +38,8 @@ void attempt(CurveSummary& summary, const std::function<void()>& step) {
 
 class Job {
  public:
-  Job(std::string folder, const CurveOptions& options, Progress& progress)
-      : folder_(std::move(folder)), options_(options), progress_(progress) {
+  Job(std::string folder, const ReadOptions& read, const CurveOptions& options, Progress& progress)
+      : folder_(std::move(folder)), read_(read), options_(options), progress_(progress) {
     fs::create_directories(folder_);
   }
 
@@ -54,8 +54,9 @@ class Job {
         run.points = so_far.points;
         save_points(run.points);
       };
-      const Mesh mesh = read_model(surface);
-      run = rate_distortion_curve(mesh, model, options, progress);
+      const SurfaceFile file = read_model(surface, read_);
+      for (const std::string& note : file.notes) progress.note(note);
+      run = in_places_of(file, [&] { return rate_distortion_curve(file.mesh, model, options, progress); });
     });
     finished_.insert(finished_.end(), run.points.begin(), run.points.end());
     std::vector<CurveSeries> curves = curves_of(run.points);
@@ -98,6 +99,7 @@ class Job {
   }
 
   std::string folder_;
+  const ReadOptions& read_;
   const CurveOptions& options_;
   Progress& progress_;
   std::vector<CurvePoint> finished_;
@@ -111,9 +113,9 @@ bool CurveJobResult::failed() const {
   return std::any_of(models.begin(), models.end(), [](const CurveSummary& model) { return !model.failure.empty(); });
 }
 
-CurveJobResult curve_job(const std::vector<std::string>& surfaces, const std::string& folder,
+CurveJobResult curve_job(const std::vector<std::string>& surfaces, const std::string& folder, const ReadOptions& read,
                          const CurveOptions& options, Progress& progress) {
-  Job job(folder, options, progress);
+  Job job(folder, read, options, progress);
   for (const ModelSource& model : named_models(surfaces)) job.add(model.source, model.name);
   return job.finish();
 }

@@ -5,6 +5,7 @@
 
 #include "experiments/curve/curve.h"
 #include "experiments/curve/summary.h"
+#include "mesh/io.h"
 
 namespace gsp {
 
@@ -18,7 +19,7 @@ struct CurveJobResult {
 /// method, so that an interrupt loses no finished one), MODEL.png, .svg and .gp, MODEL-omega.csv, overview.png and .svg
 /// for several models. A surface that fails is a summary with its cause, and the others go on.
 /// Throws Error(Cancelled), Error(CannotWrite).
-CurveJobResult curve_job(const std::vector<std::string>& surfaces, const std::string& folder,
+CurveJobResult curve_job(const std::vector<std::string>& surfaces, const std::string& folder, const ReadOptions& read,
                          const CurveOptions& options, Progress& progress);
 
 }  // namespace gsp

@@ -2,6 +2,16 @@
 
 namespace gsp {
 
+namespace {
+
+std::string with_place(const std::string& sentence, const Place& place) {
+  const std::string index = std::to_string(place.index);
+  if (place.end) return sentence + " (the edge of vertices " + index + " and " + std::to_string(*place.end) + ")";
+  return sentence + " (" + element_name(place.element) + " " + index + ")";
+}
+
+}  // namespace
+
 const char* cause_name(Cause cause) {
   switch (cause) {
     case Cause::CannotOpen:
@@ -18,6 +28,10 @@ const char* cause_name(Cause cause) {
       return "no-faces";
     case Cause::NonFinite:
       return "non-finite";
+    case Cause::TooSmall:
+      return "too-small";
+    case Cause::NoArea:
+      return "no-area";
     case Cause::NonManifoldEdge:
       return "non-manifold-edge";
     case Cause::NonManifoldVertex:
@@ -28,6 +42,8 @@ const char* cause_name(Cause cause) {
       return "degenerate-face";
     case Cause::DuplicateFace:
       return "duplicate-face";
+    case Cause::PolygonNotSimple:
+      return "polygon-not-simple";
     case Cause::ComponentTooSmall:
       return "component-too-small";
     case Cause::NoSubdivisionConnectivity:
@@ -77,19 +93,17 @@ const char* element_name(Element element) {
   return "";
 }
 
-Error::Error(Cause cause, const std::string& sentence) : std::runtime_error(sentence), cause_(cause) {}
+Error::Error(Cause cause, const std::string& sentence)
+    : std::runtime_error(sentence), cause_(cause), sentence_(sentence) {}
 
-Error::Error(Cause cause, const std::string& sentence, Element element, long long index)
-    : std::runtime_error(sentence + " (" + element_name(element) + " " + std::to_string(index) + ")"),
-      cause_(cause),
-      element_(element),
-      index_(index) {}
+Error::Error(Cause cause, const std::string& sentence, const Place& place)
+    : std::runtime_error(with_place(sentence, place)), cause_(cause), sentence_(sentence), place_(place) {}
 
 Error Error::within(const std::string& where) const {
-  Error error(cause_, where + ": " + what());
-  error.element_ = element_;
-  error.index_ = index_;
-  return error;
+  const std::string sentence = where + ": " + sentence_;
+  return place_ ? Error(cause_, sentence, *place_) : Error(cause_, sentence);
 }
+
+Error Error::at(const Place& place) const { return Error(cause_, sentence_, place); }
 
 }  // namespace gsp

@@ -16,11 +16,14 @@ enum class Cause {
   IndexOutOfRange,          ///< a face names a vertex that does not exist
   NoFaces,                  ///< a point cloud, wire frame or empty file
   NonFinite,                ///< a coordinate is NaN or infinite, or too large to square
+  TooSmall,                 ///< a surface whose areas are too small to compute with
+  NoArea,                   ///< a component of which no face has an area
   NonManifoldEdge,          ///< an edge of more than two faces
   NonManifoldVertex,        ///< a vertex whose faces form more than one fan
   InconsistentOrientation,  ///< two faces run through their common edge the same way, or the surface has one side only
   DegenerateFace,           ///< a face that names a vertex twice
   DuplicateFace,            ///< two faces on the same three vertices
+  PolygonNotSimple,         ///< a polygon of a file that crosses or touches itself, seen along its normal
   ComponentTooSmall,        ///< a component with too few vertices to carry a base complex
   NoSubdivisionConnectivity,  ///< a plain mesh that was expected to be semi-regular
   BadStream,                  ///< a coded mesh whose header is damaged
@@ -46,25 +49,37 @@ enum class Element { None, Vertex, Edge, Face, Line, Byte, Component };
 
 const char* element_name(Element element);
 
+/// What an error is about. `index` counts from 0 for vertices, faces, components and bytes, from 1 for lines. An edge
+/// is named by the vertices at its ends, or alone by its number.
+struct Place {
+  Element element = Element::None;
+  long long index = 0;
+  std::optional<long long> end = {};  ///< an edge's second vertex
+};
+
 /// The one exception type of gsp: a named cause, a sentence, and the place that is at fault.
 /// `what()` is the sentence with the place appended.
 class Error : public std::runtime_error {
  public:
   Error(Cause cause, const std::string& sentence);
-  /// `index` counts from 0 for vertices, faces, components and bytes, from 1 for lines.
-  Error(Cause cause, const std::string& sentence, Element element, long long index);
+  Error(Cause cause, const std::string& sentence, const Place& place);
+  Error(Cause cause, const std::string& sentence, Element element, long long index)
+      : Error(cause, sentence, Place{element, index}) {}
 
   Cause cause() const { return cause_; }
-  Element element() const { return element_; }
-  std::optional<long long> index() const { return index_; }
+  Element element() const { return place_ ? place_->element : Element::None; }
+  std::optional<long long> index() const { return place_ ? std::optional<long long>(place_->index) : std::nullopt; }
+  const std::optional<Place>& place() const { return place_; }
 
   /// The same error with the name of the file or cell it happened in put before the sentence.
   Error within(const std::string& where) const;
+  /// The same error about the same thing, counted another way.
+  Error at(const Place& place) const;
 
  private:
   Cause cause_;
-  Element element_ = Element::None;
-  std::optional<long long> index_;
+  std::string sentence_;
+  std::optional<Place> place_;
 };
 
 }  // namespace gsp

@@ -11,7 +11,7 @@
 
 #include "mesh/atomic_file.h"
 #include "mesh/error.h"
-#include "mesh/formats.h"
+#include "mesh/files/formats.h"
 #include "mesh/ply_elements.h"
 #include "mesh/read_file.h"
 
@@ -108,15 +108,19 @@ void write_stl(std::ostream& out, const Mesh& mesh) {
 
 }  // namespace
 
-Mesh read_mesh(const std::string& path) {
+SurfaceFile read_surface(const std::string& path, const ReadOptions& options) {
   const MeshFormat format = require_format(path);
   const std::string bytes = read_file(path);
   try {
-    return parse_mesh(format, bytes);
+    SurfaceFile file = parse_surface(format, bytes);
+    if (options.weld) weld(file, *options.weld);
+    return file;
   } catch (const Error& error) {
     throw error.within(path);
   }
 }
+
+Mesh read_mesh(const std::string& path) { return read_surface(path).mesh; }
 
 void write_mesh(const std::string& path, const Mesh& mesh, const std::vector<std::string>& comments) {
   const MeshFormat format = require_format(path);

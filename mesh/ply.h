@@ -32,8 +32,8 @@ struct PlyElement {
   const PlyProperty* list(std::string_view property) const;
 };
 
-/// A whole PLY file, whatever its elements are. A surface's meaning of it is in io.cpp; a parameterization's is in
-/// param/.
+/// A whole PLY file, whatever its elements are. A surface's meaning of it is in files/ply_mesh.cpp; a
+/// parameterization's is in param/.
 struct PlyDocument {
   std::vector<std::string> comments;  ///< without the keyword and the space after it
   std::vector<PlyElement> elements;

@@ -33,4 +33,17 @@ std::string read_file(const std::string& path) {
   return bytes;
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+  using namespace std::string_view_literals;
+  if (text.starts_with("\xef\xbb\xbf"sv)) return text.substr(3);
+  if (text.starts_with("\xff\xfe"sv) || text.starts_with("\xfe\xff"sv) || text.starts_with("\0\0\xfe\xff"sv))
+    throw Error(Cause::UnknownFormat, "the text is in UTF-16 or UTF-32; UTF-8 and ASCII are read", Element::Byte, 0);
+  return text;
+}
+
+std::string read_text(const std::string& path) {
+  const std::string bytes = read_file(path);
+  return std::string(without_byte_order_mark(bytes));
+}
+
 }  // namespace gsp

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
+
+#include <Eigen/Geometry>
 
 #include "mesh/disjoint_sets.h"
 #include "mesh/edge_groups.h"
@@ -14,13 +17,39 @@ namespace gsp {
 
 namespace {
 
-constexpr double kLargestCoordinate = 1e75;
+/// Areas of faces that are triangles only by rounding: so many units in the last place of the largest coordinate high.
+constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 bool is_finite(const Vec3& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() <= kLargestCoordinate; }
 
 int next_corner(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
 
 int vertex_at(const Mesh& mesh, int corner) { return mesh.faces[corner / 3][corner % 3]; }
+
+bool in_range(const Triangle& t, const Mesh& mesh) {
+  return std::all_of(t.begin(), t.end(), [&](int v) { return v >= 0 && v < mesh.vertex_count(); });
+}
+
+Error out_of_range(int face, int vertices) {
+  return Error(Cause::IndexOutOfRange, "a face names a vertex that is none of " + std::to_string(vertices),
+               Element::Face, face);
+}
+
+void require_indices(const Mesh& mesh) {
+  require_countable(mesh.positions.size(), mesh.faces.size());
+  for (int f = 0; f < mesh.face_count(); ++f)
+    if (!in_range(mesh.faces[f], mesh)) throw out_of_range(f, mesh.vertex_count());
+}
+
+/// Without squares, which small numbers lose. A single point has nothing to lose.
+bool too_small(const Eigen::AlignedBox3d& box) {
+  const double extent = box.sizes().maxCoeff();
+  return extent > 0.0 && extent < kSmallestExtent;
+}
+
+constexpr const char* kNoFace = "there is no face: a point cloud, a wire frame or an empty file";
+constexpr const char* kNotFinite = "a coordinate is not a finite number, or too large to compute areas with";
+constexpr const char* kTooSmall = "the surface is smaller than 1e-60, too small to compute areas with: scale it";
 
 /// Builds a report in one pass over the edges and one over the fans of corners.
 class Analysis {
@@ -36,6 +65,7 @@ class Analysis {
     for (int e = 0; e < edges_.size(); ++e) visit_edge(e);
     std::sort(report_.duplicate_faces.begin(), report_.duplicate_faces.end());
     number_components();
+    measure_components();
     count_edges();
     count_fans();
     count_loops();
@@ -124,6 +154,25 @@ class Analysis {
     for (int h : complex_) component(h / 3).manifold = false;
   }
 
+  void measure_components() {
+    Eigen::AlignedBox3d box;
+    for (const Triangle& t : mesh_.faces)
+      if (!names_vertex_twice(t))
+        for (int v : t) box.extend(mesh_.positions[v]);
+    if (box.isEmpty()) return;
+    report_.too_small = report_.non_finite_vertices.empty() && too_small(box);
+    const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+    for (int f = 0; f < mesh_.face_count(); ++f) {
+      if (names_vertex_twice(mesh_.faces[f])) continue;
+      double longest = 0.0;
+      for (int k = 0; k < 3; ++k) {
+        const auto [a, b] = ends(3 * f + k);
+        longest = std::max(longest, (mesh_.positions[a] - mesh_.positions[b]).norm());
+      }
+      if (face_area(mesh_, f) > kRounding * largest * longest) component(f).has_area = true;
+    }
+  }
+
   void count_edges() {
     for (int e = 0; e < edges_.size(); ++e) ++component(edges_[e][0] / 3).edges;
   }
@@ -170,6 +219,7 @@ class Analysis {
     roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
     for (int root : roots) ++component(root / 3).boundary_loops;
     report_.boundary_loops = static_cast<int>(roots.size());
+    report_.boundary_edges = static_cast<int>(boundary_.size());
   }
 
   const Mesh& mesh_;
@@ -183,23 +233,21 @@ class Analysis {
   TopologyReport report_;
 };
 
-std::string edge_name(const std::array<int, 2>& edge) {
-  return "the edge of vertices " + std::to_string(edge[0]) + " and " + std::to_string(edge[1]);
-}
+Place place_of(const std::array<int, 2>& edge) { return {Element::Edge, edge[0], edge[1]}; }
 
 std::optional<Error> refusal_of(const TopologyReport& r) {
-  if (r.faces == 0) return Error(Cause::NoFaces, "there is no face: a point cloud, a wire frame or an empty file");
+  if (r.faces == 0) return Error(Cause::NoFaces, kNoFace);
+  if (!r.out_of_range_faces.empty()) return out_of_range(r.out_of_range_faces[0], r.vertices);
   if (!r.non_finite_vertices.empty())
-    return Error(Cause::NonFinite, "a coordinate is not a finite number, or too large to compute areas with",
-                 Element::Vertex, r.non_finite_vertices[0]);
+    return Error(Cause::NonFinite, kNotFinite, Element::Vertex, r.non_finite_vertices[0]);
+  if (r.too_small) return Error(Cause::TooSmall, kTooSmall);
   if (!r.repeated_index_faces.empty())
     return Error(Cause::DegenerateFace, "a face names the same vertex twice", Element::Face, r.repeated_index_faces[0]);
   if (!r.duplicate_faces.empty())
     return Error(Cause::DuplicateFace, "a face has the same three vertices as an earlier one", Element::Face,
                  r.duplicate_faces[0]);
   if (!r.non_manifold_edges.empty())
-    return Error(Cause::NonManifoldEdge, edge_name(r.non_manifold_edges[0]) + " has more than two faces",
-                 Element::Vertex, r.non_manifold_edges[0][0]);
+    return Error(Cause::NonManifoldEdge, "an edge has more than two faces", place_of(r.non_manifold_edges[0]));
   if (!r.non_manifold_vertices.empty())
     return Error(Cause::NonManifoldVertex, "the faces around a vertex form more than one fan", Element::Vertex,
                  r.non_manifold_vertices[0]);
@@ -208,16 +256,35 @@ std::optional<Error> refusal_of(const TopologyReport& r) {
       return Error(Cause::InconsistentOrientation, "the component has one side only, like a Moebius strip",
                    Element::Face, c.first_face);
   if (!r.misoriented_edges.empty())
-    return Error(Cause::InconsistentOrientation,
-                 "both faces run the same way through " + edge_name(r.misoriented_edges[0]), Element::Vertex,
-                 r.misoriented_edges[0][0]);
+    return Error(Cause::InconsistentOrientation, "both faces run the same way through an edge",
+                 place_of(r.misoriented_edges[0]));
+  for (const ComponentReport& c : r.components)
+    if (!c.has_area)
+      return Error(Cause::NoArea,
+                   "a component of " + std::to_string(c.faces) +
+                       " faces has no area: the corners of each lie on a line, up to rounding of the coordinates",
+                   Element::Face, c.first_face);
   return std::nullopt;
 }
 
 }  // namespace
 
 TopologyReport topology_report(const Mesh& mesh) {
-  TopologyReport report = Analysis(mesh).run();
+  require_countable(mesh.positions.size(), mesh.faces.size());
+  std::vector<int> out_of_range_faces;
+  for (int f = 0; f < mesh.face_count(); ++f)
+    if (!in_range(mesh.faces[f], mesh)) out_of_range_faces.push_back(f);
+  TopologyReport report;
+  if (out_of_range_faces.empty()) {
+    report = Analysis(mesh).run();
+  } else {
+    Mesh rest = mesh;
+    for (int f : out_of_range_faces) rest.faces[f] = {0, 0, 0};  // one that names a vertex twice counts for nothing
+    report = Analysis(rest).run();
+    std::erase_if(report.repeated_index_faces,
+                  [&](int f) { return std::binary_search(out_of_range_faces.begin(), out_of_range_faces.end(), f); });
+    report.out_of_range_faces = std::move(out_of_range_faces);
+  }
   report.refusal = refusal_of(report);
   return report;
 }
@@ -227,15 +294,29 @@ void require_parameterizable(const Mesh& mesh) {
   if (report.refusal) throw *report.refusal;
 }
 
+void require_countable(std::size_t vertices, std::size_t faces) {
+  constexpr std::size_t limit = std::numeric_limits<int>::max();
+  if (vertices > limit || faces > limit / 3)
+    throw Error(Cause::Malformed, "more vertices or faces than can be numbered");
+}
+
+void require_computable(const std::vector<Vec3>& positions) {
+  Eigen::AlignedBox3d box;
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    if (!is_finite(positions[v])) throw Error(Cause::NonFinite, kNotFinite, Element::Vertex, static_cast<long long>(v));
+    box.extend(positions[v]);
+  }
+  if (!box.isEmpty() && too_small(box)) throw Error(Cause::TooSmall, kTooSmall);
+}
+
 void require_finite_surface(const Mesh& mesh) {
-  if (mesh.faces.empty()) throw Error(Cause::NoFaces, "there is no face: a point cloud, a wire frame or an empty file");
-  for (int v = 0; v < mesh.vertex_count(); ++v)
-    if (!is_finite(mesh.positions[v]))
-      throw Error(Cause::NonFinite, "a coordinate is not a finite number, or too large to compute areas with",
-                  Element::Vertex, v);
+  if (mesh.faces.empty()) throw Error(Cause::NoFaces, kNoFace);
+  require_indices(mesh);
+  require_computable(mesh.positions);
 }
 
 int orient_consistently(Mesh& mesh) {
+  require_indices(mesh);
   const EdgeGroups edges(mesh);
   DisjointSets sides(mesh.faces.size());
   for (int e = 0; e < edges.size(); ++e) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <tuple>
 
@@ -30,21 +31,90 @@ std::vector<int> first_at_same_position(const std::vector<Vec3>& positions) {
   return first;
 }
 
-Mesh weld(const Mesh& mesh) {
-  const std::vector<int> first = first_at_same_position(mesh.positions);
-  std::vector<int> kept(first.size());
-  Mesh welded;
+namespace {
+
+/// Positions that were kept, by cubes of twice the distance that they lie apart: few of them are in one, and eight
+/// cubes hold all that are near a position. Cubes are found in a sorted list, which no input makes slow.
+class KeptPositions {
+ public:
+  KeptPositions(const std::vector<Vec3>& positions, double distance) : positions_(positions), distance_(distance) {
+    for (const Vec3& p : positions)
+      if (p.allFinite()) cubes_.push_back(cube(p));
+    std::sort(cubes_.begin(), cubes_.end());
+    cubes_.erase(std::unique(cubes_.begin(), cubes_.end()), cubes_.end());
+    last_.resize(cubes_.size(), -1);
+    before_.resize(positions.size(), -1);
+  }
+
+  /// The smallest index of those within the distance; otherwise v, which is kept.
+  int find_or_keep(int v) {
+    const Vec3& p = positions_[v];
+    if (!p.allFinite()) return v;
+    const Cube own = cube(p);
+    int found = v;
+    for (int side = 0; side < 8; ++side) {
+      Cube near = own;
+      for (int k = 0; k < 3; ++k)
+        if (side >> k & 1) near[k] += p[k] / (2.0 * distance_) - own[k] < 0.5 ? -1.0 : 1.0;
+      const auto place = std::lower_bound(cubes_.begin(), cubes_.end(), near);
+      if (place == cubes_.end() || *place != near) continue;
+      for (int kept = last_[place - cubes_.begin()]; kept >= 0; kept = before_[kept])
+        if (kept < found && (positions_[kept] - p).norm() <= distance_) found = kept;
+    }
+    if (found == v) {
+      int& last = last_[std::lower_bound(cubes_.begin(), cubes_.end(), own) - cubes_.begin()];
+      before_[v] = last;
+      last = v;
+    }
+    return found;
+  }
+
+ private:
+  using Cube = std::array<double, 3>;
+
+  Cube cube(const Vec3& p) const {
+    Cube c;
+    for (int k = 0; k < 3; ++k) c[k] = std::floor(p[k] / (2.0 * distance_));
+    return c;
+  }
+
+  const std::vector<Vec3>& positions_;
+  double distance_;
+  std::vector<Cube> cubes_;
+  std::vector<int> last_;    ///< #cubes, the position kept last there, or -1
+  std::vector<int> before_;  ///< #V, the one kept before it in the same cube, or -1
+};
+
+}  // namespace
+
+std::vector<int> first_within(const std::vector<Vec3>& positions, double distance) {
+  KeptPositions kept(positions, distance);
+  std::vector<int> first(positions.size());
+  for (int v = 0; v < static_cast<int>(first.size()); ++v) first[v] = kept.find_or_keep(v);
+  return first;
+}
+
+WeldedMesh weld(const Mesh& mesh, const std::vector<int>& first) {
+  std::vector<int> left(first.size());
+  WeldedMesh welded;
   for (int v = 0; v < mesh.vertex_count(); ++v) {
     if (first[v] == v) {
-      kept[v] = welded.vertex_count();
-      welded.positions.push_back(mesh.positions[v]);
+      left[v] = welded.mesh.vertex_count();
+      welded.mesh.positions.push_back(mesh.positions[v]);
+      welded.vertices.push_back(v);
     } else {
-      kept[v] = kept[first[v]];
+      left[v] = left[first[v]];
     }
   }
-  welded.faces.reserve(mesh.faces.size());
-  for (const Triangle& t : mesh.faces) welded.faces.push_back({kept[t[0]], kept[t[1]], kept[t[2]]});
+  welded.mesh.faces.reserve(mesh.faces.size());
+  for (const Triangle& t : mesh.faces) welded.mesh.faces.push_back({left[t[0]], left[t[1]], left[t[2]]});
   return welded;
+}
+
+WeldedMesh weld(const Mesh& mesh, double share) {
+  const double distance = share * bounding_box_diagonal(mesh);
+  const bool exact = !(distance > 0.0) || !std::isfinite(distance);
+  return weld(mesh, exact ? first_at_same_position(mesh.positions) : first_within(mesh.positions, distance));
 }
 
 }  // namespace gsp

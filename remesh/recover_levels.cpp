@@ -175,15 +175,15 @@ SemiregularMesh recover_levels(const Mesh& mesh) {
   return result;
 }
 
-SemiregularMesh read_or_recover(const std::string& path) {
-  if (path.ends_with(".ply")) {
+SemiregularMesh read_or_recover(const std::string& path, const ReadOptions& options) {
+  if (path.ends_with(".ply") && !options.weld) {
     try {
       return read_semiregular(path);
     } catch (const Error& error) {
       if (error.cause() != Cause::NoSubdivisionConnectivity) throw;
     }
   }
-  return recover_levels(read_mesh(path));
+  return recover_levels(read_surface(path, options).mesh);
 }
 
 }  // namespace gsp

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "mesh/io.h"
 #include "remesh/semiregular.h"
 
 namespace gsp {
@@ -14,8 +15,8 @@ namespace gsp {
 /// O(V + F).
 SemiregularMesh recover_levels(const Mesh& mesh);
 
-/// Reads `*.sr.ply` as such, any other mesh by recovering its levels. Throws the errors of `read_mesh` and
-/// `recover_levels`.
-SemiregularMesh read_or_recover(const std::string& path);
+/// Reads `*.sr.ply` as such, any other mesh, and one that is to be welded, by recovering its levels. Throws the errors
+/// of `read_surface` and `recover_levels`.
+SemiregularMesh read_or_recover(const std::string& path, const ReadOptions& options = {});
 
 }  // namespace gsp

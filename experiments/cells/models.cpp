@@ -9,7 +9,6 @@
 
 #include "experiments/cells/suggest.h"
 #include "mesh/error.h"
-#include "mesh/io.h"
 #include "mesh/shapes.h"
 
 namespace gsp {
@@ -106,6 +105,9 @@ std::vector<std::string> matching_models(const std::string& pattern) {
   return surface_files(paths);
 }
 
-Mesh read_model(const std::string& source) { return is_shape(source) ? shape_of(source).make() : read_mesh(source); }
+SurfaceFile read_model(const std::string& source, const ReadOptions& options) {
+  if (!is_shape(source)) return read_surface(source, options);
+  return {shape_of(source).make(), {}, {}};
+}
 
 }  // namespace gsp

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh.h"
+#include "mesh/io.h"
 
 namespace gsp {
 
@@ -28,7 +28,7 @@ std::vector<std::string> matching_models(const std::string& pattern);
 /// Names after "shape:".
 std::vector<std::string> shape_names();
 
-/// Reads or generates a surface. Throws the errors of `read_mesh`, and BadOption for an unknown shape.
-Mesh read_model(const std::string& source);
+/// Reads or generates a surface. Throws the errors of `read_surface`, and BadOption for an unknown shape.
+SurfaceFile read_model(const std::string& source, const ReadOptions& options = {});
 
 }  // namespace gsp

@@ -299,9 +299,19 @@ std::vector<CellOptions> combinations(const Layers& layers, long long line) {
   return unique;
 }
 
+std::optional<double> weld(const toml::table& file) {
+  const toml::node* node = file.get("weld");
+  if (!node) return std::nullopt;
+  if (node->is_string() && node->ref<std::string>() == "exact") return 0.0;
+  const std::optional<double> share = node->is_number() ? node->value<double>() : std::nullopt;
+  if (!share || !(*share >= 0.0 && *share <= ReadOptions::kLargestWeld))
+    refuse(fmt::format("weld is not \"exact\" or a number of 0 to {}", ReadOptions::kLargestWeld), line_of(*node));
+  return share;
+}
+
 toml::table parse(const std::string& path) {
   try {
-    return toml::parse(read_file(path), path);
+    return toml::parse(read_text(path), path);
   } catch (const toml::parse_error& error) {
     throw Error(Cause::Malformed, std::string(error.description()), Element::Line, error.source().begin.line);
   }
@@ -328,7 +338,8 @@ Recipe recipe_of(const toml::table& file, const std::string& otherwise, const st
   Recipe recipe;
   recipe.name = text(file, "name", otherwise);
   recipe.description = text(file, "description", "");
-  require_known_keys(file, {"models", "name", "description", "block"});
+  require_known_keys(file, {"models", "name", "description", "block", "weld"});
+  recipe.read.weld = weld(file);
   const auto add = [&](const toml::table* block, long long line) { add_block(recipe, block, file, line, instead); };
   const toml::node* blocks = file.get("block");
   if (!blocks) {

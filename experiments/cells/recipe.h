@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "experiments/cells/cell_options.h"
+#include "mesh/io.h"
 
 namespace gsp {
 
@@ -17,6 +18,7 @@ struct RecipeBlock {
 struct Recipe {
   std::string name;
   std::string description;
+  ReadOptions read;  ///< how the surfaces are read
   std::vector<RecipeBlock> blocks;
 };
 
@@ -25,6 +27,7 @@ struct Recipe {
 ///     name = "gamma-mu"                  # else the file's name
 ///     description = "..."
 ///     models = ["data/*.off", "shape:torus"]   # files by pattern, folders, generated shapes
+///     weld = "exact"                     # or a share of the diagonal: which vertices of the surfaces are joined
 ///     gamma = [0, 1, 2]                  # any axis of cell_options.h: one value, a list of them, or a range:
 ///     mu = { from = 0, to = 2, step = 0.5 }         # also { from, to, steps } and { from, to, factor }
 ///     budgets = [1024, 4096]             # bytes; else 256, 512, 1024, ...

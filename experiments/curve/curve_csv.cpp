@@ -99,7 +99,7 @@ std::string text_of(const PointField& column, const CurvePoint& point) {
 }  // namespace
 
 std::vector<CurvePoint> read_curve_csv(const std::string& path) try {
-  const std::string text = read_file(path);
+  const std::string text = read_text(path);
   std::size_t at = 0;
   long long line = 1;
   std::map<std::string, std::size_t> columns;

@@ -6,7 +6,7 @@
 #include "experiments/figures/map_measures.h"
 #include "experiments/figures/paint.h"
 #include "experiments/figures/remesh_map.h"
-#include "mesh/formats.h"
+#include "mesh/files/formats.h"
 #include "mesh/io.h"
 #include "mesh/ply.h"
 #include "mesh/topology.h"
@@ -26,7 +26,7 @@ Picture draw(const Mesh& mesh, const Camera& camera, const Paint& paint, const R
 /// Red from the distance on that 95% of the vertices are nearer than.
 Picture distance_picture(const Mesh& mesh, const Camera& camera, const PictureOptions& options) {
   if (options.other.empty()) throw Error(Cause::BadOption, "a picture of distance needs the surface to measure to");
-  std::vector<double> distances = vertex_distances(mesh, SurfaceTree(read_mesh(options.other)));
+  std::vector<double> distances = vertex_distances(mesh, SurfaceTree(read_surface(options.other, options.read).mesh));
   std::vector<double> sorted = distances;
   const auto p95 = sorted.begin() + static_cast<std::ptrdiff_t>(0.95 * (sorted.size() - 1));
   std::nth_element(sorted.begin(), p95, sorted.end());
@@ -119,7 +119,7 @@ Picture mesh_picture(const Mesh& mesh, const PictureOptions& options) {
 Picture file_picture(const std::string& path, const PictureOptions& options, Progress& progress) {
   progress.report("read", 0.0);
   if (!needs_map(options.subject)) {
-    const Mesh mesh = read_mesh(path);
+    const Mesh mesh = read_surface(path, options.read).mesh;
     progress.report("draw", 0.2);
     return mesh_picture(mesh, options);
   }

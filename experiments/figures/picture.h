@@ -4,6 +4,7 @@
 #include <string>
 
 #include "experiments/figures/render.h"
+#include "mesh/io.h"
 #include "mesh/progress.h"
 #include "metrics/picture.h"
 #include "param/map/parameterization.h"
@@ -34,6 +35,7 @@ struct PictureOptions {
   std::string measure = "anisotropy";  ///< of Distortion: one of `map_measure_names()`
   int density = 8;                     ///< of Isolines: lines a patch in each direction, 1..1024
   RemeshOptions remesh;                ///< of Remesh
+  ReadOptions read;                    ///< how surfaces are read
   std::string other;                   ///< of Distance: file of the surface to measure to
   View view;
   RenderOptions render;

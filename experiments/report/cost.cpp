@@ -132,7 +132,7 @@ std::string cost_in_words(const CostCurve& cost) {
 }
 
 std::vector<OmegaRecord> read_omega_csv(const std::string& path) {
-  std::istringstream in(read_file(path));
+  std::istringstream in(read_text(path));
   std::vector<OmegaRecord> record;
   std::string line;
   std::getline(in, line);

@@ -67,6 +67,7 @@ struct Plan {
   std::string recipe;
   std::vector<StoredModel> models;
   std::vector<PlannedCell> cells;
+  std::vector<std::string> notes;  ///< what reading the models had to say, for people; not stored
 };
 
 enum class CellStatus { Waiting, Done, Failed };

@@ -60,13 +60,16 @@ std::map<StageKind, std::string> stage_keys(const CellOptions& options, const st
   return keys;
 }
 
-StoredModel stored_model(const ModelSource& source,
-                         const std::function<void(const std::string& key, const Mesh&)>& keep) {
+StoredModel stored_model(const ModelSource& source, const ReadOptions& read,
+                         const std::function<void(const std::string& key, const Mesh&)>& keep,
+                         std::vector<std::string>& notes) {
   StoredModel model;
   model.name = source.name;
   model.source = source.source;
   try {
-    const Mesh mesh = read_model(source.source);
+    const SurfaceFile file = read_model(source.source, read);
+    const Mesh& mesh = file.mesh;
+    for (const std::string& note : file.notes) notes.push_back(source.name + ": " + note);
     model.surface_key = mesh_hash(mesh);
     model.path = surface_path(model.surface_key);
     model.vertices = mesh.vertex_count();
@@ -99,7 +102,8 @@ Plan make_plan(const Recipe& recipe, const std::function<void(const std::string&
   for (const RecipeBlock& block : recipe.blocks)
     for (const std::string& source : block.models)
       if (std::find(sources.begin(), sources.end(), source) == sources.end()) sources.push_back(source);
-  for (const ModelSource& source : named_models(sources)) plan.models.push_back(stored_model(source, keep));
+  for (const ModelSource& source : named_models(sources))
+    plan.models.push_back(stored_model(source, recipe.read, keep, plan.notes));
 
   const Labels labels(recipe);
   std::set<std::string> seen;

@@ -54,6 +54,7 @@ SweepResult sweep(const Recipe& recipe, const std::string& folder, const SweepOp
   if (!slurm.active()) remove_unfinished(folder);
   const Plan plan =
       make_plan(recipe, [&](const std::string& key, const Mesh& mesh) { keep_surface(folder, key, mesh); });
+  for (const std::string& note : plan.notes) progress.note(note);
   store.replace_plan(plan);
   empty_inbox(store);
   if (!slurm.active()) forget_failures(store, plan, options.retry_failed);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "mesh/error.h"
+#include "mesh/topology.h"
 #include "param/map/parameterization.h"
 
 namespace gsp {
@@ -53,10 +54,10 @@ void require_vertices(const Parameterization& map) {
         throw Error(Cause::IndexOutOfRange, "a face names a vertex that does not exist", Element::Face, f);
       used[v] = 1;
     }
+  require_computable(map.surface.positions);
   for (int v = 0; v < map.surface.vertex_count(); ++v) {
-    const Vec3& p = map.surface.positions[v];
-    if (!usable(p.x()) || !usable(p.y()) || !usable(p.z()) || !usable(map.position[v]))
-      throw Error(Cause::NonFinite, "a coordinate is not finite", Element::Vertex, v);
+    if (!usable(map.position[v]))
+      throw Error(Cause::NonFinite, "a position in a patch is not finite", Element::Vertex, v);
     if (map.patch[v] < (used[v] ? 0 : -1) || map.patch[v] >= map.base.face_count())
       throw Error(Cause::IndexOutOfRange, "a vertex lies in a base face that does not exist", Element::Vertex, v);
   }

@@ -1,33 +1,12 @@
-#include <sys/wait.h>
-
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "cli.h"
+#include "process.h"
 #include "temporary_folder.h"
 #include "test_meshes.h"
 
 namespace fs = std::filesystem;
-
-namespace {
-
-// The program itself, in a process of its own: neither a crash nor a hang (status 124) takes the test with it.
-Ran gsp_process(const std::string& arguments, const TemporaryFolder& folder) {
-  const std::string out = folder.file("out.txt"), err = folder.file("err.txt");
-  const int status =
-      std::system(("timeout 60 '" GSP_PROGRAM "' " + arguments + " >'" + out + "' 2>'" + err + "'").c_str());
-  const auto text = [](const std::string& path) {
-    std::ifstream in(path);
-    return std::string(std::istreambuf_iterator<char>(in), {});
-  };
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text(out), text(err)};
-}
-
-}  // namespace
 
 TEST_CASE("every bad file is reported on: usable, or a named cause with status 3") {
   const std::string shared = shared_meshes();

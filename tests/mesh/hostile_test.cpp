@@ -12,7 +12,7 @@ namespace {
 /// Reads and reports, both of which must end in a result or an Error whatever the bytes are.
 void survive(MeshFormat format, std::string_view bytes) {
   try {
-    topology_report(parse_mesh(format, bytes));
+    topology_report(parse_surface(format, bytes).mesh);
   } catch (const Error& error) {
     REQUIRE(exit_status(error.cause()) == 3);
   }

@@ -44,7 +44,7 @@ Cause read_cause(const std::string& path) {
 TEST_CASE("every dialect of every format gives the same square") {
   for (const MeshFile& file : square_files()) {
     INFO(file.name);
-    const Mesh mesh = parse_mesh(file.format, file.bytes);
+    const Mesh mesh = parse_surface(file.format, file.bytes).mesh;
     CHECK(mesh.positions == square().positions);
     CHECK(mesh.faces == square().faces);
   }
@@ -141,13 +141,14 @@ TEST_CASE("an error names the file and the line or face") {
 
 TEST_CASE("polygons become fans from their first corner, and those of fewer than three corners nothing") {
   const Mesh mesh =
-      parse_mesh(MeshFormat::Off, "OFF\n5 4 0\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 4 0 1 2 3\n2 0 1\n0\n3 0 1 2");
+      parse_surface(MeshFormat::Off, "OFF\n5 4 0\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 4 0 1 2 3\n2 0 1\n0\n3 0 1 2")
+          .mesh;
   CHECK(mesh.faces == std::vector<Triangle>{{4, 0, 1}, {4, 1, 2}, {4, 2, 3}, {0, 1, 2}});
 }
 
 TEST_CASE("numbers that are not finite are kept for the report") {
   const Mesh mesh =
-      parse_mesh(MeshFormat::Off, "OFF\n3 1 0\nnan -inf 1e999\nNaN Infinity -1e999\n1e-999 0 0\n3 0 1 2\n");
+      parse_surface(MeshFormat::Off, "OFF\n3 1 0\nnan -inf 1e999\nNaN Infinity -1e999\n1e-999 0 0\n3 0 1 2\n").mesh;
   const double infinity = std::numeric_limits<double>::infinity();
   CHECK(std::isnan(mesh.positions[0].x()));
   CHECK(mesh.positions[0].y() == -infinity);
@@ -157,7 +158,7 @@ TEST_CASE("numbers that are not finite are kept for the report") {
 }
 
 TEST_CASE("vertex order and isolated vertices are the file's") {
-  const Mesh mesh = parse_mesh(MeshFormat::Obj, "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 2 3 4\n");
+  const Mesh mesh = parse_surface(MeshFormat::Obj, "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 2 3 4\n").mesh;
   CHECK(mesh.vertex_count() == 5);
   CHECK(mesh.faces == std::vector<Triangle>{{1, 2, 3}});
 }

@@ -93,7 +93,7 @@ std::vector<MeshFile> square_files() {
 
 std::optional<Cause> parse_cause(MeshFormat format, std::string_view bytes) {
   try {
-    parse_mesh(format, bytes);
+    parse_surface(format, bytes);
   } catch (const Error& error) {
     return error.cause();
   }

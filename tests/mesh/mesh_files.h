@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesh/error.h"
-#include "mesh/formats.h"
+#include "mesh/files/formats.h"
 
 /// The same two triangles of a square in every dialect that the readers must take, for tests that read them, cut them
 /// and damage them.

@@ -1,9 +1,11 @@
 #include "mesh/topology.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 #include <utility>
 
+#include "cause_of.h"
 #include "mesh/random.h"
 #include "mesh/shapes.h"
 #include "mesh/weld.h"
@@ -23,7 +25,7 @@ std::optional<Cause> refusal(const Mesh& mesh) {
     FAIL("no error");
   } catch (const Error& error) {
     CHECK(error.cause() == report.refusal->cause());
-    CHECK(error.index().has_value() == (error.cause() != Cause::NoFaces));
+    CHECK(error.index().has_value() == (error.cause() != Cause::NoFaces && error.cause() != Cause::TooSmall));
   }
   return report.refusal->cause();
 }
@@ -206,7 +208,65 @@ TEST_CASE("faces that only need turning are refused, and turned on request") {
 
 TEST_CASE("welding joins exact copies only, keeps the order, and takes both zeros for one") {
   const Mesh soup{{{0, 0, 0}, {1, 0, 0}, {-0.0, 0, 0}, {1, 0, 1e-300}, {1, 0, 0}}, {{0, 1, 3}, {2, 3, 4}}};
-  const Mesh mesh = weld(soup);
+  const Mesh mesh = weld(soup, first_at_same_position(soup.positions)).mesh;
   CHECK(mesh.positions == std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 0, 1e-300}});
   CHECK(mesh.faces == std::vector<Triangle>{{0, 1, 2}, {0, 2, 1}});
+}
+
+TEST_CASE("a caller's faces of vertices that do not exist are named, not followed") {
+  for (const int index : {4, -1, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
+    Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}, {0, 1, index}, {2, 2, index}, {1, 3, 2}}};
+    const TopologyReport report = topology_report(mesh);
+    CHECK(report.out_of_range_faces == std::vector<int>{1, 2});
+    CHECK(report.repeated_index_faces.empty());
+    CHECK(report.components.size() == 1);
+    CHECK(refusal(mesh) == Cause::IndexOutOfRange);
+    CHECK(cause_of([&] { require_finite_surface(mesh); }) == Cause::IndexOutOfRange);
+    CHECK(cause_of([&] { orient_consistently(mesh); }) == Cause::IndexOutOfRange);
+  }
+  CHECK(refusal({{}, {{0, 0, 0}, {0, 1, 2}}}) == Cause::IndexOutOfRange);
+}
+
+TEST_CASE("more than half-edges of an int can number is refused, not wrapped around") {
+  constexpr std::size_t most = std::numeric_limits<int>::max();
+  CHECK_NOTHROW(require_countable(most, most / 3));
+  CHECK(cause_of([] { require_countable(most + 1, 1); }) == Cause::Malformed);
+  CHECK(cause_of([] { require_countable(1, most / 3 + 1); }) == Cause::Malformed);
+}
+
+TEST_CASE("a component without area is refused as such, with a face of it") {
+  Mesh line{{}, {{0, 1, 2}, {2, 1, 3}, {2, 3, 4}}};
+  for (int i = 0; i < 6; ++i)
+    line.positions.push_back(i * Vec3(1.0 / 3.0, 1.0 / 7.0, -0.1));  // collinear up to rounding
+  CHECK(refusal(line) == Cause::NoArea);
+  Mesh both = shapes::torus(8, 6);
+  const int vertices = both.vertex_count(), faces = both.face_count();
+  for (const Vec3& p : line.positions) both.positions.push_back(p + Vec3(20, 0, 0));
+  for (const Triangle& t : line.faces) both.faces.push_back({t[0] + vertices, t[1] + vertices, t[2] + vertices});
+  CHECK(refusal(both) == Cause::NoArea);
+  CHECK(topology_report(both).refusal->index() == faces);
+  // Within a sound component faces without area are counted, and usable.
+  Mesh ridge{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}}};
+  CHECK(refusal(ridge) == std::nullopt);
+  CHECK(topology_report(ridge).zero_area_faces == std::vector<int>{2});
+  // A needle is thin, but has an area.
+  CHECK(refusal({{{0, 0, 0}, {1e6, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}) == std::nullopt);
+  // A point is a component without area, too.
+  CHECK(refusal({{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{0, 1, 2}}}) == Cause::NoArea);
+}
+
+TEST_CASE("surfaces of any size are used, or refused with the reason") {
+  for (int exponent = -320; exponent <= 308; exponent += 4) {
+    Mesh mesh = shapes::torus(8, 6);
+    for (Vec3& p : mesh.positions) p *= std::pow(10.0, exponent);
+    INFO(exponent);
+    const std::optional<Cause> cause = refusal(mesh);
+    if (exponent < -61)
+      CHECK((cause == Cause::TooSmall || (exponent < -322 && cause == Cause::NoArea)));
+    else if (exponent > 75)
+      CHECK(cause == Cause::NonFinite);
+    else if (exponent > -60 && exponent < 74)
+      CHECK(cause == std::nullopt);
+    CHECK((cause_of([&] { require_finite_surface(mesh); }) == Cause::Internal) == !cause.has_value());
+  }
 }

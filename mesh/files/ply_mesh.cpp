@@ -1,8 +1,12 @@
+#include <span>
+#include <string>
 #include <vector>
 
 #include "mesh/error.h"
-#include "mesh/formats.h"
+#include "mesh/files/formats.h"
+#include "mesh/files/polygon_builder.h"
 #include "mesh/ply.h"
+#include "mesh/topology.h"
 
 namespace gsp {
 
@@ -26,14 +30,14 @@ const PlyProperty* corner_list(const PlyElement& element) {
 }
 
 /// One strip of triangles, alternately oriented; -1 starts a new strip.
-void add_strip(FanBuilder& fans, std::span<const long long> strip) {
+void add_strip(PolygonBuilder& polygons, std::span<const long long> strip) {
   std::size_t length = 0;
   for (std::size_t i = 0; i < strip.size(); ++i) {
     length = strip[i] == -1 ? 0 : length + 1;
     if (length < 3) continue;
     const bool odd = length % 2 == 0;
     const long long triangle[3] = {strip[i - (odd ? 1 : 2)], strip[i - (odd ? 2 : 1)], strip[i]};
-    fans.add(triangle);
+    polygons.add(triangle);
   }
 }
 
@@ -55,25 +59,30 @@ void for_each_row(const PlyElement& element, Add&& add) {
 
 }  // namespace
 
-Mesh parse_ply_mesh(std::string_view bytes) {
+SurfaceFile parse_ply_mesh(std::string_view bytes) {
   const PlyDocument document = parse_ply(bytes);
   const PlyElement* vertex = document.find("vertex");
   if (!vertex) throw Error(Cause::Malformed, "the PLY file has no vertices");
   const std::vector<double>&x = coordinate(*vertex, "x").values, &y = coordinate(*vertex, "y").values,
         &z = coordinate(*vertex, "z").values;
   require_countable(vertex->count, 0);
-  Mesh mesh;
-  mesh.positions.reserve(vertex->count);
-  for (std::size_t v = 0; v < vertex->count; ++v) mesh.positions.emplace_back(x[v], y[v], z[v]);
+  SurfaceFile file;
+  file.mesh.positions.reserve(vertex->count);
+  for (std::size_t v = 0; v < vertex->count; ++v) file.mesh.positions.emplace_back(x[v], y[v], z[v]);
 
-  FanBuilder fans(mesh);
+  PolygonBuilder polygons(file);
   if (const PlyElement* face = document.find("face")) {
-    mesh.faces.reserve(face->count);
-    for_each_row(*face, [&](std::span<const long long> corners) { fans.add(corners); });
+    file.mesh.faces.reserve(face->count);
+    for_each_row(*face, [&](std::span<const long long> corners) { polygons.add(corners); });
   }
   if (const PlyElement* strips = document.find("tristrips"))
-    for_each_row(*strips, [&](std::span<const long long> strip) { add_strip(fans, strip); });
-  return mesh;
+    for_each_row(*strips, [&](std::span<const long long> strip) { add_strip(polygons, strip); });
+  polygons.finish();
+  for (const PlyElement& element : document.elements)
+    if (element.count > 0 && element.name != "vertex" && element.name != "face" && element.name != "tristrips")
+      file.notes.push_back("the PLY element " + element.name + " of " + std::to_string(element.count) +
+                           " rows is not read");
+  return file;
 }
 
 }  // namespace gsp

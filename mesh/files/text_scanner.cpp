@@ -1,4 +1,4 @@
-#include "mesh/text_scanner.h"
+#include "mesh/files/text_scanner.h"
 
 #include <algorithm>
 #include <charconv>
@@ -17,7 +17,8 @@ std::string_view without_plus(std::string_view token) {
   return token;
 }
 
-/// For messages: hostile text is cut short and made printable.
+}  // namespace
+
 std::string quoted(std::string_view token) {
   constexpr std::size_t longest = 24;
   std::string text(token.substr(0, longest));
@@ -26,8 +27,6 @@ std::string quoted(std::string_view token) {
     if (c < ' ' || c > '~') c = '?';
   return '"' + text + '"';
 }
-
-}  // namespace
 
 bool parse_number(std::string_view token, double& value) {
   token = without_plus(token);
@@ -94,6 +93,20 @@ long long TextScanner::integer() {
   if (token.empty()) fail(Cause::Truncated, "the file ends where a whole number should be");
   if (!parse_integer(token, value)) fail(Cause::Malformed, quoted(token) + " is not a whole number");
   return value;
+}
+
+int TextScanner::numbers_to_line_end() {
+  int count = 0;
+  for (std::string_view token = next_in_line(); !token.empty(); token = next_in_line(), ++count) {
+    double value;
+    if (!parse_number(token, value)) fail(Cause::Malformed, quoted(token) + " is not a number");
+  }
+  return count;
+}
+
+void TextScanner::require_end(const std::string& sentence) {
+  if (const std::string_view token = next(); !token.empty())
+    fail(Cause::Malformed, sentence + ", but " + quoted(token) + " follows");
 }
 
 bool TextScanner::at_end() {

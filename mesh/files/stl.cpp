@@ -4,9 +4,13 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "mesh/formats.h"
-#include "mesh/text_scanner.h"
+#include "mesh/files/formats.h"
+#include "mesh/files/text_scanner.h"
+#include "mesh/read_file.h"
+#include "mesh/topology.h"
 #include "mesh/weld.h"
 
 namespace gsp {
@@ -33,11 +37,13 @@ std::size_t promised_bytes(std::string_view bytes) {
   return kHeaderBytes + kFacetBytes * static_cast<std::size_t>(read_uint32(bytes, kHeaderBytes - 4));
 }
 
-/// The first word alone does not tell: many writers of binary files begin their header with "solid".
+/// The first word alone does not tell: many writers of binary files begin their header with "solid". Text has no zeros.
 bool is_ascii(std::string_view bytes) {
-  if (bytes.size() >= kHeaderBytes && promised_bytes(bytes) == bytes.size()) return false;
-  TextScanner text(bytes);
-  return bytes.size() < kHeaderBytes || equals_ignoring_case(text.next(), "solid");
+  if (bytes.size() < kHeaderBytes) return true;
+  if (promised_bytes(bytes) == bytes.size() || bytes.substr(0, kHeaderBytes).find('\0') != std::string_view::npos)
+    return false;
+  TextScanner text(without_byte_order_mark(bytes));
+  return equals_ignoring_case(text.next(), "solid");
 }
 
 void add_triangle(Mesh& soup) {
@@ -45,11 +51,24 @@ void add_triangle(Mesh& soup) {
   soup.faces.push_back({last - 2, last - 1, last});
 }
 
-Mesh parse_binary(std::string_view bytes) {
-  if (promised_bytes(bytes) > bytes.size())
+/// A rest that is too short for a facet is padding; `notes` receives what it was.
+void check_size(std::string_view bytes, std::size_t count, std::vector<std::string>& notes) {
+  const std::size_t promised = promised_bytes(bytes);
+  if (promised > bytes.size())
     throw Error(Cause::Truncated, "the STL header promises more facets than the file holds", Element::Byte,
                 static_cast<long long>(bytes.size()));
+  const std::size_t rest = bytes.size() - promised;
+  if (rest >= kFacetBytes)
+    throw Error(Cause::Malformed,
+                "the STL header counts " + std::to_string(count) + " facets, but " + std::to_string(rest) +
+                    " bytes follow them, which hold " + std::to_string(rest / kFacetBytes) + " more",
+                Element::Byte, static_cast<long long>(promised));
+  if (rest > 0) notes.push_back(std::to_string(rest) + " bytes behind the last STL facet are not read");
+}
+
+Mesh parse_binary(std::string_view bytes, std::vector<std::string>& notes) {
   const std::size_t count = read_uint32(bytes, kHeaderBytes - 4);
+  check_size(bytes, count, notes);
   require_countable(3 * count, count);
   Mesh soup;
   soup.positions.reserve(3 * count);
@@ -76,8 +95,10 @@ void expect(TextScanner& text, std::string_view word) {
 void parse_facet(TextScanner& text, Mesh& soup) {
   expect(text, "normal");
   // Normals are recomputed from the corners, and some writers print none or garbage for degenerate facets.
-  while (!equals_ignoring_case(text.next(), "outer"))
-    if (text.at_end()) text.fail(Cause::Truncated, "the STL file ends within a facet");
+  std::string_view token = text.next();
+  for (int k = 0; k < 3 && !equals_ignoring_case(token, "outer"); ++k) token = text.next();
+  text.put_back(token.size());
+  expect(text, "outer");
   expect(text, "loop");
   for (int corner = 0; corner < 3; ++corner) {
     expect(text, "vertex");
@@ -91,7 +112,7 @@ void parse_facet(TextScanner& text, Mesh& soup) {
 
 Mesh parse_ascii(std::string_view bytes) {
   Mesh soup;
-  TextScanner text(bytes);
+  TextScanner text(without_byte_order_mark(bytes));
   bool inside = false;
   while (!text.at_end()) {
     const std::string_view token = text.next();
@@ -114,6 +135,13 @@ Mesh parse_ascii(std::string_view bytes) {
 
 }  // namespace
 
-Mesh parse_stl(std::string_view bytes) { return weld(is_ascii(bytes) ? parse_ascii(bytes) : parse_binary(bytes)); }
+SurfaceFile parse_stl(std::string_view bytes) {
+  SurfaceFile file;
+  const Mesh soup = is_ascii(bytes) ? parse_ascii(bytes) : parse_binary(bytes, file.notes);
+  WeldedMesh welded = weld(soup, first_at_same_position(soup.positions));
+  file.mesh = std::move(welded.mesh);
+  file.numbering.vertices = std::move(welded.vertices);
+  return file;
+}
 
 }  // namespace gsp

@@ -12,6 +12,9 @@ namespace gsp {
 bool parse_number(std::string_view token, double& value);
 bool parse_integer(std::string_view token, long long& value);
 
+/// A token for messages: in quotes, hostile text cut short and made printable.
+std::string quoted(std::string_view token);
+
 /// Walks over the tokens of a text file, white space apart. A `comment` character, if given, hides the rest of its
 /// line. A carriage return is white space, so all three line-ending conventions read alike.
 class TextScanner {
@@ -31,6 +34,12 @@ class TextScanner {
   /// The next token on any line as a number. Throws Error: Truncated, Malformed, with the line.
   double number();
   long long integer();
+
+  /// Steps over the line's further tokens and counts those that are numbers. Throws Error(Malformed) for any that is
+  /// not.
+  int numbers_to_line_end();
+  /// Throws Error(Malformed) with the line where anything but white space is left. `sentence`: what should end here.
+  void require_end(const std::string& sentence);
 
   bool at_end();
   std::size_t left() const { return text_.size() - position_; }

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "mesh/error.h"
+#include "mesh/files/text_scanner.h"
 #include "mesh/ply.h"
 #include "mesh/read_file.h"
-#include "mesh/text_scanner.h"
 
 namespace gsp {
 
@@ -172,6 +172,12 @@ class AsciiBody {
   std::size_t room(std::size_t values, std::size_t) const {
     return values == 0 ? SIZE_MAX : (scanner_.left() + 1) / (2 * values);
   }
+  /// A row may take several lines, but shares none with the next.
+  void end_row(const std::string& element) {
+    if (const std::string_view token = scanner_.next_in_line(); !token.empty())
+      fail(Cause::Malformed, quoted(token) + " is one value more than the header says for a row of element " + element);
+  }
+  void end() { scanner_.require_end("the PLY file should end after the rows that its header counts"); }
   [[noreturn]] void fail(Cause cause, const std::string& sentence) const { scanner_.fail(cause, sentence); }
 
  private:
@@ -206,6 +212,15 @@ class BinaryBody {
   }
   std::size_t room(std::size_t, std::size_t size) const {
     return size == 0 ? SIZE_MAX : (bytes_.size() - position_) / size;
+  }
+  void end_row(const std::string&) {}
+  /// White space and zeros are padding.
+  void end() const {
+    using namespace std::string_view_literals;
+    const std::size_t more = bytes_.find_first_not_of("\0 \t\r\n"sv, position_);
+    if (more != std::string_view::npos)
+      fail(Cause::Malformed,
+           std::to_string(bytes_.size() - position_) + " bytes follow the rows that the PLY header counts");
   }
   [[noreturn]] void fail(Cause cause, const std::string& sentence) const {
     throw Error(cause, sentence, Element::Byte, static_cast<long long>(position_));
@@ -254,18 +269,21 @@ void read_element(Body& body, PlyElement& element) {
       p.values.reserve(element.count);
     }
   }
-  for (std::size_t row = 0; row < element.count; ++row)
+  for (std::size_t row = 0; row < element.count; ++row) {
     for (PlyProperty& p : element.properties) {
       if (p.is_list())
         read_list(body, p);
       else
         p.values.push_back(body.value(p.type));
     }
+    body.end_row(element.name);
+  }
 }
 
 template <typename Body>
 void read_body(Body body, PlyDocument& document) {
   for (PlyElement& element : document.elements) read_element(body, element);
+  body.end();
 }
 
 }  // namespace
@@ -290,6 +308,7 @@ const PlyElement* PlyDocument::find(std::string_view element) const {
 
 PlyDocument parse_ply(std::string_view bytes) {
   static_assert(std::endian::native == std::endian::little, "BinaryBody takes little-endian for the machine's order");
+  bytes = without_byte_order_mark(bytes);
   PlyDocument document;
   Header header(bytes);
   switch (parse_header(header, document)) {

@@ -1,0 +1,178 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cli.h"
+#include "mesh/io.h"
+#include "mesh/shapes.h"
+#include "mesh/weld.h"
+#include "process.h"
+#include "temporary_folder.h"
+#include "test_meshes.h"
+
+using namespace gsp;
+using nlohmann::json;
+
+namespace {
+
+std::string write(const TemporaryFolder& folder, const std::string& name, const std::string& bytes) {
+  const std::string path = folder.file(name);
+  std::ofstream(path, std::ios::binary) << bytes;
+  return path;
+}
+
+/// A torus as an OBJ whose every face has corners of its own.
+std::string write_soup(const TemporaryFolder& folder) {
+  const Mesh torus = shapes::torus(16, 8);
+  Mesh soup;
+  for (const Triangle& t : torus.faces) {
+    for (int v : t) soup.positions.push_back(torus.positions[v]);
+    const int last = soup.vertex_count() - 1;
+    soup.faces.push_back({last - 2, last - 1, last});
+  }
+  write_mesh(folder.file("soup.obj"), soup);
+  return folder.file("soup.obj");
+}
+
+json info(const std::string& path, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {"info", path, "--json"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return json::parse(gsp_run(arguments).out);
+}
+
+}  // namespace
+
+TEST_CASE("info says what a weld would close and how to ask for it; every command that reads a surface takes it") {
+  const TemporaryFolder folder;
+  const std::string soup = write_soup(folder);
+  const json report = info(soup);
+  CHECK(report["components"] == 256);
+  CHECK(report["boundary_edges"] == 768);
+  CHECK(report["weld"]["closes_boundary_edges"] == 768);
+  CHECK(report["weld"]["joins_vertices"] == 768 - 128);
+  CHECK(report["weld"]["asked_for_by"] == "--weld exact");
+  CHECK(contains(gsp_run({"info", soup}).out, "--weld exact"));
+  for (const char* weld : {"exact", "0", "1e-6"}) {
+    const json welded = info(soup, {"--weld", weld});
+    CHECK(welded["components"] == 1);
+    CHECK(welded["boundary_edges"] == 0);
+    CHECK(welded["notes"].size() == 1);
+  }
+  const std::string map = folder.file("a.param.ply");
+  const Ran made = gsp_run({"parameterize", soup, "-o", map, "--weld", "exact", "--base-vertices", "12", "--check"});
+  CHECK(made.status == 0);
+  CHECK(contains(made.err, "640 vertices were joined"));
+  const Ran distance = gsp_run({"distance", soup, map, "--weld", "exact", "--samples", "1000", "--json"});
+  CHECK(distance.status == 0);
+  for (const char* command : {"curve", "encode", "picture", "info", "parameterize", "distance"})
+    CHECK(contains(gsp_run({command, "--help"}).out, "--weld"));
+  for (const char* weld : {"-1", "0.5", "nan", "near"}) CHECK(gsp_run({"info", soup, "--weld", weld}).status == 2);
+}
+
+TEST_CASE("faults: corners that were rounded are named with the weld that joins them") {
+  const std::string root = shared_meshes();
+  if (root.empty()) return;
+  const json stl = info(root + "/faults/stl_jitter1e-7.stl");
+  CHECK(stl["boundary_edges"] == 1728);
+  CHECK(stl["weld"]["closes_boundary_edges"] == 1728);
+  CHECK(stl["weld"]["asked_for_by"] == "--weld 1e-6");
+  const json player = info(root + "/variety/basketball_player_20692.obj");
+  CHECK(player["weld"]["joins_vertices"] == 938);
+  CHECK(player["weld"]["asked_for_by"] == "--weld exact");
+}
+
+TEST_CASE("what a reader leaves out is said by info, and by what works on the surface") {
+  const TemporaryFolder folder;
+  const std::string path = write(folder, "a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nl 1 3\nhello\n");
+  CHECK(info(path)["notes"].size() == 2);
+  const Ran distance = gsp_run({"distance", path, path, "--samples", "100"});
+  CHECK(distance.status == 0);
+  CHECK(contains(distance.err, "unknown keyword"));
+  const Ran curve = gsp_run({"curve", path, "-o", folder.file("out"), "--no-anchors", "--budgets", "100"});
+  CHECK(contains(curve.err, "unknown keyword"));
+}
+
+TEST_CASE("places in refusals are the file's in every command") {
+  const TemporaryFolder folder;
+  const std::string path = write(folder, "a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nf 1 2 3 4\nf 2 5 5\n");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"info", path}, {"parameterize", path, "-o", folder.file("a.param.ply")}}) {
+    const Ran ran = gsp_run(arguments);
+    CHECK(ran.status == 3);
+    CHECK(contains(ran.out + ran.err, "(face 2)"));
+  }
+  const std::string nan = write(folder, "b.obj", "v 0 0 0\nv 1 0 nan\nv 1 1 0\nf 1 2 3\n");
+  CHECK(contains(gsp_run({"distance", nan, nan}).err, "b.obj: a coordinate is not a finite number"));
+  CHECK(contains(gsp_run({"distance", nan, nan}).err, "(vertex 2)"));
+}
+
+TEST_CASE("surfaces of any size go through the whole chain, or are refused with the reason, at once") {
+  const TemporaryFolder folder;
+  const std::string surface = folder.file("a.off"), map = folder.file("a.param.ply"), remesh = folder.file("a.sr.ply"),
+                    stream = folder.file("a.pgc"), decoded = folder.file("b.ply");
+  double psnr = 0.0;
+  for (const int exponent : {0, -190, 240, -1060, -660, -500, -330, -250, 260, 500, 1000}) {
+    INFO(exponent);
+    Mesh mesh = shapes::torus(12, 8);
+    for (Vec3& p : mesh.positions) p = p.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
+    write_mesh(surface, mesh);
+    const Ran made = gsp_process("parameterize " + surface + " -o " + map + " --base-vertices 8 --check", folder);
+    const bool in_range = exponent > -200 && exponent < 248;
+    REQUIRE(made.status == (in_range ? 0 : 3));
+    if (!in_range) {
+      CHECK((contains(made.err, "too small") || contains(made.err, "too large")));
+      CHECK(gsp_process("distance " + surface + " " + surface, folder).status == 3);
+      CHECK(info(surface)["usable"] == false);
+      continue;
+    }
+    CHECK(gsp_process("remesh " + map + " -o " + remesh + " --level 2", folder).status == 0);
+    CHECK(gsp_process("encode " + remesh + " -o " + stream, folder).status == 0);
+    CHECK(gsp_process("decode " + stream + " -o " + decoded, folder).status == 0);
+    const Ran distance = gsp_process("distance " + surface + " " + decoded + " --samples 1000 --json", folder);
+    REQUIRE(distance.status == 0);
+    const double db = json::parse(distance.out)["psnr_db"];
+    if (exponent == 0) psnr = db;
+    CHECK(db == psnr);  // the same bits: powers of two scale out of all that is computed
+  }
+  // A remesh and a map that were made elsewhere are held to the same range.
+  Mesh tiny = shapes::sphere(2);
+  for (Vec3& p : tiny.positions) p *= 1e-200;
+  write_mesh(surface, tiny);
+  CHECK(gsp_process("encode " + surface + " -o " + stream, folder).status == 3);
+}
+
+TEST_CASE("a component without area is refused at once, in little memory") {
+  const TemporaryFolder folder;
+  std::string off = "OFF\n6 3 0\n";
+  for (int i = 0; i < 6; ++i) off += std::to_string(i) + " 0 0\n";
+  const std::string path = write(folder, "a.off", off + "3 0 1 2\n3 2 1 3\n3 2 3 4\n");
+  const Ran made =
+      gsp_process("parameterize " + path + " -o " + folder.file("a.param.ply"), folder, "ulimit -v 1000000;");
+  CHECK(made.status == 3);
+  CHECK(contains(made.err, "no area"));
+  CHECK(info(path)["refusal"]["cause"] == "no-area");
+}
+
+TEST_CASE("faces without area within a sound component cost nothing") {
+  const TemporaryFolder folder;
+  // Every other edge of a sphere's faces gets a vertex on one side only; the gap is a face without area.
+  Mesh mesh = shapes::sphere(3);
+  const int faces = mesh.face_count();
+  for (int f = 0; f < faces; f += 2) {
+    const Triangle t = mesh.faces[f];
+    const int middle = mesh.vertex_count();
+    mesh.positions.push_back(mesh.positions[t[0]]);  // at a corner: an edge of no length and two faces without area
+    mesh.faces[f] = {middle, t[1], t[2]};
+    mesh.faces.push_back({t[0], t[1], middle});
+    mesh.faces.push_back({t[0], middle, t[2]});
+  }
+  const std::string path = folder.file("a.off"), map = folder.file("a.param.ply");
+  write_mesh(path, mesh);
+  CHECK(info(path)["zero_area_faces"] == faces);
+  const Ran made = gsp_process("parameterize " + path + " -o " + map + " --base-vertices 12 --check --json", folder,
+                               "ulimit -v 2000000;");
+  CHECK(made.status == 0);
+  CHECK(json::parse(made.out)["vertices_added"] < mesh.face_count());
+}
