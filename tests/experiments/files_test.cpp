@@ -61,6 +61,19 @@ TEST_CASE("curve.csv has the columns of the design and one row per point") {
   }
 }
 
+TEST_CASE("a byte order mark is no part of a CSV's first column") {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("curve.csv");
+  write_curve_csv(path, {sample_point("horse", "gsp", 1024, 60.5)});
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  std::ofstream(path) << "\xef\xbb\xbf" << text.str();
+  const std::vector<CurvePoint> points = read_curve_csv(path);
+  REQUIRE(points.size() == 1);
+  CHECK(points[0].model == "horse");
+  CHECK(points[0].bytes == 1024);
+}
+
 TEST_CASE("a model's name with a comma or a quote stays one field") {
   const TemporaryFolder folder;
   write_curve_csv(folder.file("curve.csv"), {sample_point("a,\"b", "gsp", 1, 1.0)});

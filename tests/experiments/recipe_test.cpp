@@ -197,3 +197,12 @@ TEST_CASE("the recipes that come with the program say what they mean, and descri
   }
   CHECK(recipes >= 7);
 }
+
+TEST_CASE("a recipe says which vertices of its surfaces are joined, and may begin with a byte order mark") {
+  CHECK_FALSE(recipe_of("models = [\"shape:torus\"]\n").read.weld.has_value());
+  CHECK(recipe_of("models = [\"shape:torus\"]\nweld = \"exact\"\n").read.weld == 0.0);
+  CHECK(recipe_of("models = [\"shape:torus\"]\nweld = 1e-6\n").read.weld == 1e-6);
+  for (const char* weld : {"\"near\"", "-1", "0.5", "nan", "[0.001]", "true"})
+    CHECK(says(refusal(std::string("weld = ") + weld), "weld is not"));
+  CHECK(recipe_of("\xef\xbb\xbfmodels = [\"shape:torus\"]\nweld = 0\n").read.weld == 0.0);
+}
