@@ -8,6 +8,7 @@
 #include "coder/coding_sides.h"
 #include "coder/context_values.h"
 #include "coder/due_list.h"
+#include "coder/payload_check.h"
 
 namespace gsp {
 
@@ -58,6 +59,8 @@ class BitplaneCoder {
           if (level + 1 < layout_.levels)
             tree_due_[c].for_each_due(begin, end, now, [&, at](int n) { return code_trees(now, at, n); });
         }
+        side_.count_as_check();
+        check_.check_if_due(side_);
       }
     }
   }
@@ -152,6 +155,7 @@ class BitplaneCoder {
         const bool bit =
             base_model_.decide(side_, actual, {place, place * 8 + width, fine_place, place / 2 * 32 + plane}, 0);
         known_.base[v][k] |= static_cast<std::uint32_t>(bit) << plane;
+        check_.note(bit);
         known_.base_low_plane[v][k] = plane;
       }
     }
@@ -267,7 +271,9 @@ class BitplaneCoder {
     }
   }
 
-  static void set_bit(int plane, const Scene& at, int n) {
+  void set_bit(int plane, const Scene& at, int n) {
+    check_.note(static_cast<std::uint32_t>(n) << 8 | static_cast<std::uint32_t>(plane) << 3 | at.c << 1 |
+                at.lane.negative[n]);
     const std::uint32_t bit = 1u << plane;
     at.lane.magnitude[n] |= bit;
     at.strength[n] += 2 * bit;
@@ -344,7 +350,8 @@ class BitplaneCoder {
   std::vector<std::uint8_t> open_;       ///< bit c: its descendants are coded one by one
   std::vector<DueList> bit_due_, tree_due_;
   std::vector<std::array<std::uint32_t, 3>> largest_;  ///< encoder only: largest magnitudes of all descendants
-  NodeUrgency node_urgency_;                           ///< since the last renewal
+  PayloadCheck check_;
+  NodeUrgency node_urgency_;  ///< since the last renewal
   std::array<std::vector<std::int8_t>, 3> urgency_;
   std::vector<std::uint8_t> urgency_is_new_;  ///< not that of before the last renewal
 

@@ -52,6 +52,7 @@ struct BitplaneLayout {
 /// Bits of the stream by what they say.
 struct BitplaneParts {
   double base = 0.0;
+  double checks = 0.0;
   struct Component {
     double trees = 0.0, significance = 0.0, signs = 0.0, refinement = 0.0;
   };
@@ -78,6 +79,7 @@ BitplaneState encode_bitplanes_until(const EdgeForest& forest, const BitplaneLay
                                      const BitplaneCoefficients& coefficients, std::size_t bytes);
 
 /// What the bytes [begin, end) determine, up to the first that speaks of a level below the forest. Any bytes are safe.
+/// Throws Error(BadStream) where a check in the stream shows damage (coder/payload_check.h).
 BitplaneCoefficients decode_bitplanes(const EdgeForest& forest, const BitplaneLayout& layout, const std::uint8_t* begin,
                                       const std::uint8_t* end);
 

@@ -18,6 +18,7 @@
 #include "coder/quantizer.h"
 #include "coder/rate_distortion.h"
 #include "coder/wavelet_transform.h"
+#include "mesh/fixed_order.h"
 #include "mesh/words.h"
 
 namespace gsp {
@@ -100,7 +101,7 @@ struct Structure {
       const EdgeFrames frames(levels[l], positions);
       std::vector<Vec3> details = dequantize_details(known, forest, l, header);
       for (int e = 0; e < levels[l].edge_count(); ++e)
-        if (details[e] != Vec3::Zero()) details[e] = frames(e) * details[e];
+        if (details[e] != Vec3::Zero()) details[e] = times(frames(e), details[e]);
       visit(positions);
       positions = transform.synthesis(l, std::move(positions), details);
     }

@@ -32,6 +32,7 @@ class EncodingSide {
   /// Where the next decisions are counted.
   void count_as(double BitplaneParts::Component::*kind, int c) { count_ = &(parts_.details[c].*kind); }
   void count_as_base() { count_ = &parts_.base; }
+  void count_as_check() { count_ = &parts_.checks; }
   const BitplaneParts& parts() const { return parts_; }
   void finish() { coder_.finish(); }
   void note_significance(int, int) {}
@@ -70,6 +71,7 @@ class DecodingSide {
   bool decide(bool, Probability set) { return coder_.decode(set); }
   void count_as(double BitplaneParts::Component::*, int) {}
   void count_as_base() {}
+  void count_as_check() {}
   void note_significance(int, int) {}
 
  private:

@@ -10,7 +10,7 @@ namespace gsp {
 
 namespace {
 
-constexpr std::array<std::uint8_t, 4> kMagic = {'P', 'G', 'C', 5};
+constexpr std::array<std::uint8_t, 4> kMagic = {'P', 'G', 'C', 6};
 constexpr std::size_t kChecksumEnd = kMagic.size() + 4;
 
 [[noreturn]] void refuse(const std::string& why) { throw Error(Cause::BadStream, "not a usable coded mesh: " + why); }
@@ -73,7 +73,7 @@ class Parser {
 /// Past the magic and the checksum: the size of the rest.
 std::uint64_t size_of_rest(Parser& parser) {
   for (std::uint8_t expected : kMagic)
-    if (parser.byte() != expected) refuse("it does not start with 'PGC' and version 5");
+    if (parser.byte() != expected) refuse("it does not start with 'PGC' and version 6");
   for (int b = 0; b < 4; ++b) parser.byte();
   const std::uint64_t size = parser.varint();
   if (size > static_cast<std::uint64_t>(kMaxDecodedFaces)) refuse("the header is too large");

@@ -4,10 +4,9 @@
 #include <bit>
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 #include "coder/bitplane_coder.h"
 #include "coder/local_frames.h"
+#include "mesh/fixed_order.h"
 
 namespace gsp {
 
@@ -26,7 +25,7 @@ double trace(const Moment& m) { return m[0] + m[1] + m[2]; }
 /// fᵀ m f.
 double along(const Vec3& f, const Moment& m) {
   const Moment p = products(f);
-  return p.head<3>().dot(m.head<3>()) + 2.0 * p.tail<3>().dot(m.tail<3>());
+  return ((p[0] * m[0] + p[1] * m[1]) + p[2] * m[2]) + 2.0 * ((p[3] * m[3] + p[4] * m[4]) + p[5] * m[5]);
 }
 
 /// kPassesPerPlane·log2(sqrt(ratio)) rounded, by comparisons only.
@@ -44,8 +43,8 @@ std::int8_t urgency_of(double ratio) {
 
 /// Area times n·nᵀ of a triangle; its trace is the area.
 Moment face_moment(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 area = (b - a).cross(c - a) / 2;
-  const double size = area.norm();
+  const Vec3 area = cross(b - a, c - a) / 2;
+  const double size = std::sqrt(dot(area, area));
   return size > 1e-150 ? Moment(products(area) / size) : Moment::Zero();
 }
 

@@ -1,6 +1,9 @@
 #include "coder/local_frames.h"
 
-#include <Eigen/Geometry>
+#include <cmath>
+#include <optional>
+
+#include "mesh/fixed_order.h"
 
 namespace gsp {
 
@@ -11,22 +14,17 @@ Vec3 any_orthogonal(const Vec3& n) {
   int smallest = 0;
   for (int k = 1; k < 3; ++k)
     if (std::abs(n[k]) < std::abs(n[smallest])) smallest = k;
-  return n.cross(Vec3::Unit(smallest)).normalized();
-}
-
-/// Overflow and underflow of squares count as degenerate.
-bool has_direction(const Vec3& v) {
-  const double square = v.squaredNorm();
-  return square > 1e-300 && square < 1e300;
+  return *unit(cross(n, Vec3::Unit(smallest)));
 }
 
 Frame frame(const Vec3& normal, const Vec3& direction) {
   Frame f;
-  const Vec3 n = has_direction(normal) ? Vec3(normal.normalized()) : Vec3::UnitZ();
-  const Vec3 along = direction - n * n.dot(direction);
-  const bool usable = has_direction(along) && along.squaredNorm() > 1e-20 * direction.squaredNorm();
-  const Vec3 t = usable ? Vec3(along.normalized()) : any_orthogonal(n);
-  f << n, t, n.cross(t);
+  const Vec3 n = unit(normal).value_or(Vec3::UnitZ());
+  const Vec3 along = direction - n * dot(n, direction);
+  const std::optional<Vec3> tangent =
+      dot(along, along) > 1e-20 * dot(direction, direction) ? unit(along) : std::nullopt;
+  const Vec3 t = tangent ? *tangent : any_orthogonal(n);
+  f << n, t, cross(n, t);
   return f;
 }
 
@@ -36,8 +34,8 @@ EdgeFrames::EdgeFrames(const SubdivisionLevel& level, const std::vector<Vec3>& p
     : level_(level), positions_(positions), normals_(level.faces.size()) {
   for (int f = 0; f < level.face_count(); ++f) {
     const Triangle& t = level.faces[f];
-    const Vec3 n = (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]);
-    normals_[f] = has_direction(n) ? Vec3(n.normalized()) : Vec3::Zero();
+    normals_[f] =
+        unit(cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]])).value_or(Vec3::Zero());
   }
 }
 

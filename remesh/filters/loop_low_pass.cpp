@@ -9,19 +9,16 @@ namespace gsp {
 
 namespace {
 
-/// Weight that a vertex of the given valence keeps.
-double kept_weight(int valence) {
-  const double c = 3.0 / 8.0 + cosine_of_turn(1, valence) / 4.0;
-  return 3.0 / 8.0 + c * c;
-}
-
 class LoopLowPass : public TapFilter<LoopLowPass> {
  public:
   explicit LoopLowPass(const SubdivisionLevel& coarse) : TapFilter(coarse), fans_(vertex_fans(coarse)) {
     kept_.reserve(fans_.size());
     for (const VertexFan& fan : fans_) {
       const bool inside = fan.boundary_count == 0 && fan.valence > 0;
-      kept_.push_back(fan.regular() ? 0.625 : inside ? kept_weight(fan.valence) : fan.boundary_count == 2 ? 0.75 : 1.0);
+      kept_.push_back(fan.regular()             ? 0.625
+                      : inside                  ? loop_kept_weight(fan.valence)
+                      : fan.boundary_count == 2 ? 0.75
+                                                : 1.0);
     }
   }
 
@@ -51,6 +48,11 @@ class LoopLowPass : public TapFilter<LoopLowPass> {
 };
 
 }  // namespace
+
+double loop_kept_weight(int valence) {
+  const double c = 3.0 / 8.0 + cosine_of_turn(1, valence) / 4.0;
+  return 3.0 / 8.0 + c * c;
+}
 
 std::unique_ptr<Filter> loop_low_pass(const SubdivisionLevel& coarse) { return std::make_unique<LoopLowPass>(coarse); }
 

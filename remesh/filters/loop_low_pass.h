@@ -10,4 +10,7 @@ namespace gsp {
 /// boundaries, vertices with other than two boundary edges fixed (algorithms.md §5; Loop 1987, Hoppe et al. 1994).
 std::unique_ptr<Filter> loop_low_pass(const SubdivisionLevel& coarse);
 
+/// Weight that a vertex inside keeps, whatever its valence: 5/8 at valence 6.
+double loop_kept_weight(int valence);
+
 }  // namespace gsp

@@ -106,7 +106,7 @@ TEST_CASE("the parts of a stream add up to it") {
   StreamParts parts;
   const Bytes stream = encode(samples::bumpy_sphere(4), {}, silent, &parts);
   CHECK(parts.header_bytes + parts.connectivity_bytes == header_bytes(stream));
-  double bits = parts.bits.base;
+  double bits = parts.bits.base + parts.bits.checks;
   for (const BitplaneParts::Component& c : parts.bits.details)
     bits += c.trees + c.significance + c.signs + c.refinement;
   CHECK(bits / 8.0 == Approx(stream.size() - header_bytes(stream)).epsilon(0.005));
@@ -238,7 +238,7 @@ TEST_CASE("degenerate geometry and extreme places are coded") {
   CHECK(rms_error(tiny, decode(stream, stream.size())) < 1e-30 * tolerance);
 }
 
-TEST_CASE("an altered header is a bad stream, an altered body is some mesh") {
+TEST_CASE("an altered header is a bad stream, an altered body is noticed or some mesh") {
   const SemiregularMesh mesh = samples::bumpy_sphere(2);
   const Bytes stream = encode(mesh, {}, silent);
   const std::size_t header = header_bytes(stream);
@@ -254,8 +254,33 @@ TEST_CASE("an altered header is a bad stream, an altered body is some mesh") {
     Bytes damaged = stream;
     for (int flips = 0; flips < 3; ++flips)
       damaged[header + random.next() % (stream.size() - header)] ^= 1 << random.next() % 8;
-    const SemiregularMesh decoded = decode(damaged, damaged.size());
-    CHECK(decoded.positions.size() == mesh.positions.size());
-    for (const Vec3& p : decoded.positions) REQUIRE(p.allFinite());
+    try {
+      const SemiregularMesh decoded = decode(damaged, damaged.size());
+      CHECK(decoded.positions.size() == mesh.positions.size());
+      for (const Vec3& p : decoded.positions) REQUIRE(p.allFinite());
+    } catch (const Error& error) {
+      CHECK(error.cause() == Cause::BadStream);
+    }
   }
+}
+
+TEST_CASE("damage before the last eighth of a long payload is noticed, and the prefix before it still decodes") {
+  const Bytes stream = encode(samples::noise(shapes::icosahedron(), 4), {}, silent);
+  const std::size_t header = header_bytes(stream), payload = stream.size() - header;
+  REQUIRE(payload > 12000);
+  Random random(9);
+  int missed = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const std::size_t byte = header + random.next() % (payload * 3 / 4);
+    Bytes damaged = stream;
+    damaged[byte] ^= 1 << random.next() % 8;
+    try {
+      decode(damaged, damaged.size());
+      ++missed;
+    } catch (const Error& error) {
+      CHECK(error.cause() == Cause::BadStream);
+    }
+    CHECK(decode(damaged, byte).positions == decode(stream, byte).positions);
+  }
+  CHECK(missed == 0);
 }

@@ -1,0 +1,96 @@
+#include "tests/coder/golden/golden.h"
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+
+#include "tests/coder/sample_meshes.h"
+
+using namespace gsp;
+
+namespace {
+
+const std::string kFolder = "tests/coder/golden/";
+
+struct Golden {
+  std::string name;
+  SemiregularMesh mesh;
+  EncodeOptions options;
+  std::size_t fixed_bytes = 0;  ///< 0: the embedded stream
+
+  Bytes stream() const {
+    Progress silent;
+    return fixed_bytes == 0 ? encode(mesh, options, silent) : encode_fixed(mesh, options, fixed_bytes, silent);
+  }
+};
+
+/// One stream of each wavelet, kind and mode, with and without boundary.
+std::vector<Golden> golden_streams() {
+  std::vector<Golden> all;
+  for (Wavelet wavelet : kWavelets) {
+    EncodeOptions options;
+    options.wavelet = wavelet;
+    options.precision_bits = 14;
+    const std::string name = wavelet_name(wavelet);
+    all.push_back({"sphere-" + name + ".pgc", samples::bumpy_sphere(4), options});
+    all.push_back({"sheet-" + name + ".pgc", samples::wavy_sheet(3), options});
+    all.push_back({"sphere-" + name + "-fixed.pgc", samples::bumpy_sphere(4), options, 900});
+  }
+  EncodeOptions options;
+  options.precision_bits = 14;
+  all.push_back({"noise-loop.pgc", samples::noise(shapes::icosahedron(), 3), options});
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("golden streams decode to the bits that are kept of them") {
+  std::ifstream kept(kFolder + "hashes.txt");
+  std::string name;
+  std::uint64_t whole, half;
+  std::size_t streams = 0;
+  while (kept >> name >> std::hex >> whole >> half) {
+    INFO(name);
+    CHECK(golden::hashes(golden::read(kFolder + name)) == std::vector<std::uint64_t>{whole, half});
+    ++streams;
+  }
+  CHECK(streams == golden_streams().size());
+}
+
+TEST_CASE("a golden stream with any byte of its payload altered is noticed or differs") {
+  const Bytes stream = golden::read(kFolder + "noise-loop.pgc");
+  const auto expected = golden::hashes(stream);
+  int noticed = 0, tried = 0;
+  for (std::size_t byte = header_bytes(stream); byte < stream.size(); byte += 7, ++tried) {
+    Bytes damaged = stream;
+    damaged[byte] ^= 0x10;
+    try {
+      const auto found = golden::hashes(damaged);
+      CHECK(found != expected);
+    } catch (const Error& error) {
+      CHECK(error.cause() == Cause::BadStream);
+      ++noticed;
+    }
+  }
+  CHECK(noticed > tried / 2);
+}
+
+/// Makes the streams anew where the format has changed: GSP_MAKE_GOLDEN=1 test_coder "[make-golden]".
+TEST_CASE("golden streams are made", "[.make-golden]") {
+  if (!std::getenv("GSP_MAKE_GOLDEN")) return;
+  std::ofstream kept(kFolder + "hashes.txt");
+  for (const Golden& golden : golden_streams()) {
+    const Bytes stream = golden.stream();
+    std::ofstream(kFolder + golden.name, std::ios::binary)
+        .write(reinterpret_cast<const char*>(stream.data()), static_cast<std::streamsize>(stream.size()));
+    kept << golden.name;
+    for (std::uint64_t hash : golden::hashes(stream)) {
+      std::ostringstream text;
+      text << std::hex << std::setw(16) << std::setfill('0') << hash;
+      kept << ' ' << text.str();
+    }
+    kept << '\n';
+  }
+}
