@@ -10,9 +10,11 @@
 
 #include "mesh/atomic_file.h"
 #include "mesh/topology.h"
+#include "param/atlas/split_edges.h"
 #include "param/baselines/maps_smoothing.h"
 #include "param/baselines/relax_patch_pairs.h"
 #include "param/linear/weights.h"
+#include "param/shortening.h"
 #include "param/simplify/simplify.h"
 #include "param/stages/linear_map.h"
 #include "param/stages/smooth_levels.h"
@@ -27,6 +29,7 @@ constexpr double kAutomaticShare = 64.0, kAutomaticRoot = 3.0;
 constexpr int kPairPasses = 3;         // of the hybrid baseline; more bring it nearer to the global solution
 constexpr int kLargerLevel = 4;        // than the last level that could not be joined
 constexpr double kLongestEdge = 0.25;  // of the edge of an equilateral patch of mean area
+constexpr double kMostPerFace = 12.0, kMostPerPatch = 64.0;  // vertices added for it
 
 void check_options(const ParameterizeOptions& options) {
   if (options.base_vertices != 0 && options.base_vertices < 4)
@@ -75,20 +78,26 @@ void describe(const SmoothedMap& map, const std::vector<int>& base_vertices, Par
     result.corners_moved += map.atlas.base.vertices[b] != base_vertices[b];
 }
 
-/// Edge of the equilateral triangle as large as a patch on average, for so many base vertices.
-double patch_edge(const Mesh& mesh, int base_vertices) {
+/// Patches that are expected for so many base vertices, or for the automatic number.
+double patch_count(const Mesh& mesh, int base_vertices) {
   const double count = mesh.vertex_count(),
                expected = std::min(count / kAutomaticShare, kAutomaticRoot * std::sqrt(count));
-  const double patches = 2.0 * std::max(base_vertices > 0 ? base_vertices : expected, 4.0);
-  return std::sqrt(surface_area(mesh) / patches / kChartArea);
+  return 2.0 * std::max(base_vertices > 0 ? base_vertices : expected, 4.0);
 }
 
 /// The surface with edges short enough for the patches, and none that joins two boundaries.
 Mesh refined(Mesh mesh, const ParameterizeOptions& options, Progress& progress) {
-  int added = split_boundary_chords(mesh);
+  const double faces = mesh.face_count();
+  const int added = split_boundary_chords(mesh);
   if (added > 0) progress.note(std::to_string(added) + " interior edges between boundary vertices were split");
-  added = split_long_edges(mesh, kLongestEdge * patch_edge(mesh, options.base_vertices));
-  if (added > 0) progress.note(std::to_string(added) + " vertices were added on edges that are long for the patches");
+  const double patches = patch_count(mesh, options.base_vertices), area = surface_area(mesh);
+  const double wanted = kLongestEdge * std::sqrt(area / patches / kChartArea);
+  const double most = std::min(kMostPerFace * faces, kMostPerPatch * patches);
+  if (!(wanted > 0.0)) return mesh;  // no area
+  const LongEdgeSplit split = split_long_edges(mesh, wanted, static_cast<int>(most));
+  if (split.added > 0)
+    progress.note(std::to_string(split.added) + " vertices were added on edges that are long for the patches");
+  if (split.longest > wanted) progress.note("edges of thin faces were left longer: patches will be long with them");
   return mesh;
 }
 
@@ -169,11 +178,19 @@ std::vector<ParameterizeResult> parameterize_all(const Mesh& mesh, const std::ve
                                                  const ParameterizeOptions& options, Progress& progress) {
   check_options(options);
   require_parameterizable(mesh);
-  const Start start = make_start(mesh, methods, options, progress);
+  const Shortening shortening(mesh);
+  if (shortening.any()) progress.note("the surface is long and thin, and so are its patches");
+  Mesh image = mesh;
+  if (shortening.any()) shortening.press(image);
+  const Start start = make_start(image, methods, options, progress);
   std::vector<ParameterizeResult> results;
   for (Method method : methods) {
-    results.push_back(finish(mesh, start, method, options, progress));
-    results.back().omega = start.omega;
+    ParameterizeResult& result = results.emplace_back(finish(mesh, start, method, options, progress));
+    result.omega = start.omega;
+    if (!shortening.any()) continue;
+    std::vector<Vec3>& positions = result.map.surface.positions;
+    shortening.draw_out(result.map.surface);
+    std::copy(mesh.positions.begin(), mesh.positions.end(), positions.begin());
   }
   return results;
 }

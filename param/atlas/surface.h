@@ -16,6 +16,7 @@ struct Surface {
   std::vector<int> edge_halfedge;   ///< #E, the edge's half-edge of smaller index: it gives the edge its direction
   std::vector<double> vertex_area;  ///< #V area of the Voronoi region (mixed for obtuse faces, Meyer et al. 2003)
   std::vector<double> face_area;    ///< #F
+  std::vector<int> fan_size;        ///< #V faces around the vertex
 
   explicit Surface(Mesh input);
   /// One that stands for a finer surface: each face for a part of it of the given area, not its own.
@@ -47,13 +48,5 @@ std::vector<int> faces_around(const Surface& surface, const std::vector<int>& ve
 
 /// The vertices of some faces, ascending. O(n log n) of their number.
 std::vector<int> vertices_of(const std::vector<Triangle>& faces, const std::vector<int>& some);
-
-/// Splits every interior edge whose two ends lie on the boundary at its middle. Without this a face whose corners lie
-/// on one straight boundary edge of the base would have no area. New vertices come last; each split face is replaced in
-/// place, the further pieces come last. Returns the number of vertices added.
-int split_boundary_chords(Mesh& mesh);
-
-/// Splits edges longer than `longest` > 0 at their middles until there is none. Numbering as above.
-int split_long_edges(Mesh& mesh, double longest);
 
 }  // namespace gsp

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <Eigen/Dense>
 
@@ -12,15 +13,20 @@ namespace gsp {
 
 namespace {
 
-constexpr double kLeastCurvature = 1e-4;     // of the largest, so that no direction is free
-constexpr double kLargestShare = 4.0;        // of the area that a face stands for over its own
-constexpr double kFlattestReference = 0.05;  // height over longest side of a reference triangle
+constexpr double kLeastCurvature = 1e-4;           // of the largest, so that no direction is free
+constexpr double kLargestShare = 4.0;              // of the area that a face stands for over its own
+constexpr double kFlattestReference = 0.05;        // height over longest side of a reference triangle,
+constexpr double kRound = 2.0 * std::numbers::pi;  // or as much less as the fans at its corners have no room for
 
 /// The triangle laid into the plane, kept away from degenerate shapes, as large as what it stands for.
-Eigen::Matrix2d reference_shape(const Mesh& mesh, const Triangle& t, double area, double mean_length) {
+Eigen::Matrix2d reference_shape(const Surface& surface, int face, double mean_length) {
+  const Mesh& mesh = surface.mesh;
+  const Triangle& t = mesh.faces[face];
+  const int fan = std::max({surface.fan_size[t[0]], surface.fan_size[t[1]], surface.fan_size[t[2]]});
+  const double area = surface.face_area[face], flattest = std::min(kFlattestReference, kRound / fan);
   const Vec3 a = mesh.positions[t[1]] - mesh.positions[t[0]], b = mesh.positions[t[2]] - mesh.positions[t[0]];
   const double longest = std::max({a.norm(), b.norm(), (b - a).norm(), 1e-3 * mean_length, 1e-300});
-  const double floor = kFlattestReference * longest;
+  const double floor = flattest * longest;
   const double base = std::max(a.norm(), floor);
   Eigen::Matrix2d shape;
   const double along = a.norm() > 0.0 ? a.dot(b) / a.norm() : 0.0;
@@ -91,7 +97,7 @@ std::vector<ReferenceShape> reference_shapes(const Atlas& atlas, const std::vect
   std::vector<ReferenceShape> shapes;
   shapes.reserve(faces.size());
   for (int f : faces) {
-    const Eigen::Matrix2d shape = reference_shape(mesh, mesh.faces[f], surface.face_area[f], length);
+    const Eigen::Matrix2d shape = reference_shape(surface, f, length);
     const Eigen::Matrix2d inverse = shape.inverse();
     shapes.push_back({{inverse(0, 0), inverse(0, 1), inverse(1, 1)}, 0.5 * shape.determinant()});
     area += shapes.back().weight;

@@ -6,6 +6,10 @@
 
 namespace gsp {
 
+namespace {
+constexpr int kLargestFan = 96;  // faces around a vertex: three times those of a star that is ever taken out
+}
+
 bool StarHole::open(int removal) {
   map.decimation.get(removal, star, filling);
   if (!find_border()) return false;
@@ -87,8 +91,11 @@ std::vector<int> StarHole::faces_within(int rings) const {
   std::vector<int> faces = region;
   for (int ring = 0; ring < rings; ++ring) {
     const std::vector<int> vertices = map.links.vertices_of(faces);
-    faces.clear();
-    for (int v : vertices) map.links.for_each_outgoing(v, map.boundary(v), [&](int h) { faces.push_back(h / 3); });
+    for (int v : vertices) {
+      const std::size_t before = faces.size();
+      map.links.for_each_outgoing(v, map.boundary(v), [&](int h) { faces.push_back(h / 3); });
+      if (faces.size() - before > kLargestFan) faces.resize(before);
+    }
     std::sort(faces.begin(), faces.end());
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   }

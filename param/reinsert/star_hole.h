@@ -29,7 +29,8 @@ class StarHole {
   Complex in_plane(int v) const;
   /// Of a boundary star: where the centre lies on the way from the end of the ring to its start.
   double share_of_boundary() const { return -ring.back().real() / (ring.front().real() - ring.back().real()); }
-  /// All faces up to so many rings around the hole, ascending.
+  /// All faces up to so many rings around the hole, ascending; but no ring goes on around a vertex in the middle of a
+  /// large fan, whose faces would be gathered again for every hole beside it.
   std::vector<int> faces_within(int rings) const;
 
   ReinsertionMap& map;

@@ -4,6 +4,7 @@
 
 #include "mesh/shapes.h"
 #include "param/atlas/folds.h"
+#include "param/atlas/split_edges.h"
 #include "param/simplify/overlay.h"
 #include "param/simplify/simplify.h"
 #include "param/stages/smooth_levels.h"

@@ -5,6 +5,7 @@
 #include "mesh/parallel.h"
 #include "mesh/shapes.h"
 #include "param/atlas/folds.h"
+#include "param/atlas/split_edges.h"
 #include "param/atlas/stretch.h"
 #include "param/baselines/maps_smoothing.h"
 #include "param/corners/relax_corners.h"
@@ -241,7 +242,9 @@ TEST_CASE("a surface of slivers without area ends in a valid map, on more base v
 TEST_CASE("splitting long edges leaves none, keeps the surface and puts new vertices last") {
   const Mesh before = shapes::grid(3, 2);
   Mesh mesh = before;
-  CHECK(split_long_edges(mesh, 0.3) > 0);
+  const LongEdgeSplit split = split_long_edges(mesh, 0.3, 1000);
+  CHECK(split.added > 0);
+  CHECK(split.longest == 0.3);
   const Surface surface(mesh);
   for (int e = 0; e < surface.edge_count(); ++e) {
     const int h = surface.edge_halfedge[e];
