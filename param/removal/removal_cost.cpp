@@ -218,6 +218,7 @@ bool RemovalCost::leaves_surface(const Star& star) const {
 
 void RemovalCost::price(int vertex, Candidate& candidate) {
   candidate.feasible = false;
+  if (complex_.fan_size(vertex) > kLargestRing) return;
   complex_.gather(vertex, star_);
   if (!leaves_surface(star_)) return;
   lay_out(vertex);
@@ -242,6 +243,8 @@ void RemovalCost::price(int vertex, Candidate& candidate) {
     candidate.parts.dispersion += chosen[i].area * options_.mu * squared(rho - 1.0);
     candidate.parts.metric += chosen[i].area * squared(chosen[i].delta - 1.0);
   }
+  candidate.thins_fan =
+      std::any_of(star_.ring.begin(), star_.ring.end(), [&](int v) { return complex_.fan_size(v) > kLargestFan; });
   candidate.feasible = true;
 }
 

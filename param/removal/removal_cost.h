@@ -10,7 +10,8 @@ namespace gsp {
 /// What removing a vertex would cost and how its hole would be filled.
 struct Candidate {
   bool feasible = false;
-  OmegaRecord parts;  ///< remaining_vertices is not set
+  OmegaRecord parts;       ///< remaining_vertices is not set
+  bool thins_fan = false;  ///< one of the vertices around it is in the middle of more than `kLargestFan` triangles
   std::vector<RingTriangle> triangles;
 };
 
@@ -23,6 +24,7 @@ class RemovalCost {
  public:
   static constexpr int kSamples = 32;
   static constexpr int kLargestRing = 32;
+  static constexpr int kLargestFan = 64;
 
   RemovalCost(const Surface& surface, const TriangleComplex& complex, const std::vector<Location>& locations,
               const std::vector<std::vector<int>>& points, const ParameterizeOptions& options);

@@ -1,11 +1,14 @@
 #include "param/removal/triangle_complex.h"
 
+#include <utility>
+
 namespace gsp {
 
 TriangleComplex::TriangleComplex(const Surface& surface)
     : corners_(surface.mesh.faces),
       neighbours_(surface.mesh.faces.size()),
-      incident_(surface.mesh.positions.size(), -1) {
+      incident_(surface.mesh.positions.size(), -1),
+      fan_size_(surface.fan_size) {
   for (int h = 0; h < static_cast<int>(surface.halfedges.twin.size()); ++h) {
     const int twin = surface.halfedges.twin[h];
     neighbours_[h / 3][h % 3] = twin < 0 ? -1 : twin / 3;
@@ -80,6 +83,7 @@ void TriangleComplex::gather(int vertex, Star& star) const {
 }
 
 bool TriangleComplex::edge_exists(int a, int b) const {
+  if (fan_size_[a] > fan_size_[b]) std::swap(a, b);
   const int first = incident_[a];
   int t = first;
   do {  // counter-clockwise
@@ -106,6 +110,7 @@ void TriangleComplex::replace(const Star& star, const std::vector<RingTriangle>&
       outer_edge[k] = corner_index(outer[k], a);
     }
 
+  for (int t : star.triangles) count(t, -1);
   slots.assign(star.triangles.begin(), star.triangles.begin() + triangles.size());
   std::vector<std::array<int, 4>> open;  // diagonals seen once: from, to, slot, edge
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -127,6 +132,7 @@ void TriangleComplex::replace(const Star& star, const std::vector<RingTriangle>&
         }
       open.push_back({a, b, slot, k});
     }
+    count(slot, 1);
   }
   for (std::size_t i = triangles.size(); i < star.triangles.size(); ++i) corners_[star.triangles[i]] = {-1, -1, -1};
   incident_[star.center] = -1;

@@ -48,7 +48,10 @@ class TriangleComplex {
   int opposite(int triangle, int vertex) const { return neighbour(triangle, (corner_index(triangle, vertex) + 1) % 3); }
 
   void gather(int vertex, Star& star) const;
+  /// O(triangles around the one that has fewer).
   bool edge_exists(int a, int b) const;
+  /// Triangles around the vertex.
+  int fan_size(int vertex) const { return fan_size_[vertex]; }
   /// Component of the surface the vertex belongs to, and how many vertices of the complex it still has.
   int component_vertices(int vertex) const { return component_size_[component_[vertex]]; }
   bool on_boundary(int vertex) const { return loop_[vertex] >= 0; }
@@ -60,10 +63,13 @@ class TriangleComplex {
 
  private:
   void label_components(const Surface& surface);
+  void count(int triangle, int change) {
+    for (int v : corners_[triangle]) fan_size_[v] += change;
+  }
 
   std::vector<Triangle> corners_;
   std::vector<std::array<int, 3>> neighbours_;
-  std::vector<int> incident_;
+  std::vector<int> incident_, fan_size_;
   std::vector<int> component_, component_size_;
   std::vector<int> loop_, loop_size_;
 };
