@@ -25,7 +25,7 @@ double peak_megabytes() {
 
 }  // namespace
 
-TEST_CASE("thin surfaces get a valid map in bounded time, memory and number of vertices", "[thin]") {
+TEST_CASE("thin surfaces get a valid map in bounded time, memory and number of vertices", "[thin][slow]") {
   for (int exponent = 1; exponent <= 6; ++exponent)
     for (const thin_shapes::Shape& shape : thin_shapes::family(std::pow(10.0, exponent))) {
       INFO(shape.name << ", aspect 1e" << exponent);
