@@ -98,9 +98,9 @@ Bytes write_header(const StreamHeader& header, const Bytes& connectivity) {
   Bytes sized;
   put_varint(sized, rest.size());
   sized.insert(sized.end(), rest.begin(), rest.end());
-  Bytes bytes(kChecksumEnd);
+  Bytes bytes(kChecksumEnd + sized.size());
   std::copy(kMagic.begin(), kMagic.end(), bytes.begin());
-  bytes.insert(bytes.end(), sized.begin(), sized.end());
+  std::copy(sized.begin(), sized.end(), bytes.begin() + kChecksumEnd);
   seal_header(bytes);
   return bytes;
 }

@@ -149,7 +149,7 @@ TEST_CASE("a component without area is refused at once, in little memory") {
   for (int i = 0; i < 6; ++i) off += std::to_string(i) + " 0 0\n";
   const std::string path = write(folder, "a.off", off + "3 0 1 2\n3 2 1 3\n3 2 3 4\n");
   const Ran made =
-      gsp_process("parameterize " + path + " -o " + folder.file("a.param.ply"), folder, "ulimit -v 1000000;");
+      gsp_process("parameterize " + path + " -o " + folder.file("a.param.ply"), folder, address_space(1000000));
   CHECK(made.status == 3);
   CHECK(contains(made.err, "no area"));
   CHECK(info(path)["refusal"]["cause"] == "no-area");
@@ -172,7 +172,7 @@ TEST_CASE("faces without area within a sound component cost nothing") {
   write_mesh(path, mesh);
   CHECK(info(path)["zero_area_faces"] == faces);
   const Ran made = gsp_process("parameterize " + path + " -o " + map + " --base-vertices 12 --check --json", folder,
-                               "ulimit -v 2000000;");
+                               address_space(2000000));
   CHECK(made.status == 0);
   CHECK(json::parse(made.out)["vertices_added"] < mesh.face_count());
 }

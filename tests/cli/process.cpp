@@ -16,3 +16,11 @@ Ran gsp_process(const std::string& arguments, const TemporaryFolder& folder, con
   };
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text(out), text(err)};
 }
+
+std::string address_space([[maybe_unused]] int kb) {
+#ifdef __SANITIZE_ADDRESS__
+  return {};
+#else
+  return "ulimit -v " + std::to_string(kb) + ";";
+#endif
+}
