@@ -6,6 +6,8 @@
 #include "mesh/io.h"
 #include "mesh/topology.h"
 #include "mesh/weld.h"
+#include "remesh/filters/normal_share.h"
+#include "remesh/semiregular_file.h"
 
 namespace gsp::cli {
 
@@ -59,6 +61,20 @@ Json weld_report(const Mesh& mesh, int boundary_edges) {
           {"asked_for_by", closed > 0 ? Json(exact_is_enough ? "--weld exact" : "--weld 1e-6") : Json()}};
 }
 
+/// Of a remesh, how many of its vertices one number gives.
+Json levels(const std::string& path) {
+  const SemiregularMesh mesh = read_semiregular(path);
+  const NormalShare share = normal_share(mesh);
+  return {{"level", mesh.level},
+          {"base_vertices", mesh.base_vertices},
+          {"base_faces", mesh.base_faces.size()},
+          {"vertices_above_base", share.vertices},
+          {"normal_vertices", share.normal},
+          {"normal_exceptions", share.exceptions},
+          {"boundary_vertices", share.boundary},
+          {"normal_percent", share.percent()}};
+}
+
 // A file that cannot be read is an answer here, not a failure to give one.
 int info(const std::string& path, const ReadOptions& options, const Context& context) {
   Json report = {{"file", path}};
@@ -69,6 +85,7 @@ int info(const std::string& path, const ReadOptions& options, const Context& con
     report.update(topology(file.mesh, found));
     if (found.boundary_edges > 0) report["weld"] = weld_report(file.mesh, found.boundary_edges);
     if (!file.notes.empty()) report["notes"] = file.notes;
+    if (path.ends_with(".sr.ply")) report.update(levels(path));
     if (found.refusal) refusal = in_file(*found.refusal, file.numbering);
   } catch (const Error& error) {
     if (exit_status(error.cause()) != exit_status(Cause::CannotOpen)) throw;

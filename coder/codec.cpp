@@ -13,7 +13,6 @@
 #include "coder/edge_forest.h"
 #include "coder/header.h"
 #include "coder/importance.h"
-#include "coder/local_frames.h"
 #include "coder/precision.h"
 #include "coder/quantizer.h"
 #include "coder/rate_distortion.h"
@@ -21,6 +20,7 @@
 #include "mesh/fixed_order.h"
 #include "mesh/topology.h"
 #include "mesh/words.h"
+#include "remesh/filters/local_frames.h"
 
 namespace gsp {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "coder/bitplane_coder.h"
-#include "coder/local_frames.h"
 #include "mesh/fixed_order.h"
+#include "remesh/filters/local_frames.h"
 
 namespace gsp {
 

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "coder/edge_forest.h"
-#include "coder/local_frames.h"
+#include "remesh/filters/local_frames.h"
 #include "remesh/semiregular.h"
 
 namespace gsp {

@@ -9,8 +9,6 @@ namespace {
 
 /// A point this near to a face (chart units) may be in it: far above rounding, far below the spacing of any lattice.
 constexpr double kBorder = 1e-10;
-/// A weight this small is a point on an edge or a corner, whose position then is exact.
-constexpr double kOnBorder = 1e-13;
 
 /// A face in lattice coordinates x + yω, in units of the lattice's spacing, counter-clockwise.
 struct Placed {
@@ -40,17 +38,6 @@ struct Placed {
     return (x[b] - x[a]) * (py - y[a]) - (y[b] - y[a]) * (px - x[a]);
   }
 };
-
-/// Weights brought into the triangle, those on its border exactly.
-std::array<double, 3> snapped(std::array<double, 3> w) {
-  double sum = 0.0;
-  for (double& x : w) {
-    if (!(x > kOnBorder)) x = 0.0;
-    sum += x;
-  }
-  for (double& x : w) x /= sum;
-  return w;
-}
 
 double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
 
@@ -96,7 +83,7 @@ void ChartSamples::scan(int piece) {
       found.fit = std::max(smallest, -1.0) - (t.flipped ? SurfacePoint::kFlipped : 0.0);
       Sample& sample = samples_[lattice_index(n_, i, j)];
       if (!found.better_than(sample.point)) continue;
-      found.weights = snapped(found.weights);
+      found.weights = snapped_weights(found.weights);
       sample = {found, piece};
     }
   }

@@ -1,28 +1,11 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "param/map/development.h"
+#include "remesh/surface_point.h"
 
 namespace gsp {
-
-/// Where on the surface a lattice point of a chart lies: in a face, at the weights of its three corners.
-struct SurfacePoint {
-  int face = -1;  ///< -1: none found
-  /// To choose among several faces: the smallest weight; less `kFlipped` in a flipped face; less `kNear` where the face
-  /// does not hold the point but is near it.
-  double fit = 0.0;
-  std::array<double, 3> weights = {0.0, 0.0, 0.0};
-
-  static constexpr double kFlipped = 4.0;
-  static constexpr double kNear = 8.0;
-
-  bool better_than(const SurfacePoint& other) const {
-    if (face < 0 || other.face < 0) return face >= 0;
-    return fit != other.fit ? fit > other.fit : face < other.face;
-  }
-};
 
 /// Place of lattice point (i, j) among the (n+1)(n+2)/2 of a chart's triangle, row by row.
 inline std::size_t lattice_index(int n, int i, int j) { return static_cast<std::size_t>(j) * (2 * n + 3 - j) / 2 + i; }

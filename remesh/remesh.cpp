@@ -12,6 +12,7 @@
 #include "remesh/chart_samples.h"
 #include "remesh/closest_fit.h"
 #include "remesh/fit_positions.h"
+#include "remesh/normal/normal_remesh.h"
 
 namespace gsp {
 
@@ -58,28 +59,6 @@ FitEffort effort_of(Positions positions) {
   return positions == Positions::Closest ? kClosest : kFitted;
 }
 
-/// Faces unfolded at a time by one thread.
-constexpr std::size_t kBlock = 4096;
-
-/// The pieces of all faces, by chart and within one by face.
-std::vector<std::vector<FacePiece>> pieces_by_chart(const Parameterization& map) {
-  const std::size_t faces = map.surface.faces.size();
-  const Development development(map);
-  std::vector<std::vector<FacePiece>> blocks((faces + kBlock - 1) / kBlock);
-  parallel_for(faces, kBlock, [&](std::size_t begin, std::size_t end) {
-    std::vector<FacePiece>& pieces = blocks[begin / kBlock];
-    for (std::size_t f = begin; f < end; ++f) development.append(static_cast<int>(f), pieces);
-  });
-  std::vector<int> count(map.base.faces.size(), 0);
-  for (const auto& block : blocks)
-    for (const FacePiece& piece : block) ++count[piece.chart];
-  std::vector<std::vector<FacePiece>> charts(map.base.faces.size());
-  for (std::size_t c = 0; c < charts.size(); ++c) charts[c].reserve(count[c]);
-  for (const auto& block : blocks)
-    for (const FacePiece& piece : block) charts[piece.chart].push_back(piece);
-  return charts;
-}
-
 /// Lattice coordinates, weights of corners 1 and 2 times 2^level, of the three corners of face `index` among those that
 /// quadrisecting a base face makes, by the numbering rule of semiregular.h.
 std::array<std::array<int, 2>, 3> lattice_corners(int level, int index) {
@@ -107,12 +86,28 @@ std::array<std::array<int, 2>, 3> lattice_corners(int level, int index) {
   return c;
 }
 
-Vec3 position(const Mesh& surface, const SurfacePoint& point) {
-  const Triangle& t = surface.faces[point.face];
-  Vec3 sum = Vec3::Zero();
-  for (int k = 0; k < 3; ++k)
-    if (point.weights[k] > 0.0) sum += point.weights[k] * surface.positions[t[k]];
-  return sum;
+void require_built(const RemeshOptions& options) {
+  if (options.kind == RemeshKind::Parametric) return;
+  const std::string kind = remesh_kind_name(options.kind);
+  if (options.kind != RemeshKind::Normal)
+    throw Error(Cause::BadOption, "remeshes of kind " + kind + " are not built yet; parametric and normal ones are");
+  if (options.positions != Positions::Sampled)
+    throw Error(Cause::BadOption, "a remesh of kind " + kind + " has sampled positions only, not " +
+                                      positions_name(options.positions) + " ones");
+}
+
+SemiregularMesh normal(const Parameterization& map, const std::vector<std::vector<FacePiece>>& pieces, int level,
+                       Progress& progress) {
+  const auto levels = subdivision_levels(map.base.vertex_count(), map.base.faces, level);
+  NormalRemesh made = normal_remesh(map, pieces, levels, {}, progress);
+  const auto count = [&](VertexForm form) {
+    return std::to_string(std::count(made.forms.begin(), made.forms.end(), form));
+  };
+  progress.note(count(VertexForm::Normal) + " of " + std::to_string(made.forms.size()) +
+                " vertices above the base are normal; " + count(VertexForm::Parametric) +
+                " are where the map has them, " + count(VertexForm::Boundary) + " on the boundary");
+  progress.report("remesh", 1.0);
+  return {level, map.base.vertex_count(), map.base.faces, std::move(made.positions)};
 }
 
 /// Remeshing in progress: the finest connectivity, the positions, and what the charts found on their borders.
@@ -186,7 +181,7 @@ class Remesher {
   Vec3 covered(int chart, const SurfacePoint& point) const {
     if (point.face < 0)
       throw Error(Cause::InvalidMap, "no face of the surface covers a base face", Element::Face, chart);
-    return position(map_.surface, point);
+    return position_at(map_.surface, point);
   }
 
   void set(int chart, int vertex, const SurfacePoint& point) {
@@ -247,15 +242,14 @@ class Remesher {
 }  // namespace
 
 SemiregularMesh remesh(const Parameterization& map, const RemeshOptions& options, Progress& progress) {
+  require_built(options);
   require_well_formed(map);
   if (map.base.faces.empty()) throw Error(Cause::InvalidMap, "a map without base faces has nothing to remesh");
-  if (options.kind != RemeshKind::Parametric)
-    throw Error(Cause::BadOption, std::string("remeshes of kind ") + remesh_kind_name(options.kind) +
-                                      " are not built yet; parametric ones are");
   const int level = chosen_level(map, options);
   progress.report("remesh", 0.0);
   const std::vector<std::vector<FacePiece>> pieces = pieces_by_chart(map);
   progress.report("remesh", 0.3);
+  if (options.kind == RemeshKind::Normal) return normal(map, pieces, level, progress);
   Remesher remesher(map, level, options.positions);
   parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) remesher.sample_chart(static_cast<int>(c), pieces[c]);

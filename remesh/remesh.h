@@ -12,9 +12,10 @@ namespace gsp {
 /// Sampled points on base vertices are the surface's own vertices, bit for bit. For a map that `check_map` finds valid
 /// every sample is the exact inverse. Where a baseline's map folds, faces of positive area are preferred to flipped
 /// ones; a point in no face takes the nearest place in a face beside it, and `progress` notes how many there were.
-/// O(faces + samples), of which a fit takes 16 a vertex or more, on all threads but for the fit's solutions, the same
-/// bits for any number of them. Throws Error: BadOption, for kinds that are not built too, InvalidMap where nothing
-/// covers a base face, the errors of `require_well_formed`.
+/// Of kind normal, vertices above the base lie on normals where they can (normal/normal_remesh.h); `progress` notes how
+/// many do. O(faces + samples), of which a fit takes 16 a vertex or more, on all threads but for the fit's solutions,
+/// the same bits for any number of them. Throws Error: BadOption, for kinds that are not built too, InvalidMap where
+/// nothing covers a base face, the errors of `require_well_formed`.
 SemiregularMesh remesh(const Parameterization& map, const RemeshOptions& options, Progress& progress);
 
 }  // namespace gsp

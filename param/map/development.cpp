@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "mesh/halfedges.h"
+#include "mesh/parallel.h"
 #include "param/map/base_fan.h"
 #include "param/map/lattice_motion.h"
 
@@ -44,10 +45,11 @@ std::optional<Complex> anchor(const Parameterization& map, int face) {
   return std::nullopt;
 }
 
-FacePiece walk_to_centroid(const Parameterization& map, int face, const FacePiece& from, Complex start) {
-  const Complex goal = from.motion.apply(centroid(map.face_corners[face]));
-  const Arrival at = walk_straight(map.base, from.chart, from.motion.apply(start), goal);
-  return {at.chart, face, at.change * from.motion};
+FacePiece walk_to_centroid(const BaseComplex& base, const std::array<Complex, 3>& corners, const FacePiece& from,
+                           Complex start) {
+  const Complex goal = from.motion.apply(centroid(corners));
+  const Arrival at = walk_straight(base, from.chart, from.motion.apply(start), goal);
+  return {at.chart, from.face, at.change * from.motion};
 }
 
 /// Whether the triangle of the given weights reaches beyond `edge` of the chart's triangle through that edge itself.
@@ -68,17 +70,16 @@ bool crosses(const std::array<Weights, 3>& corners, int edge) {
 
 bool same(const FacePiece& a, const FacePiece& b) { return a.chart == b.chart && a.motion == b.motion; }
 
-/// Adds the pieces that a face reaches from `pieces.back()`, its first one.
-void flood(const Parameterization& map, std::vector<FacePiece>& pieces) {
+/// Adds the pieces that a triangle reaches from `pieces.back()`, its first one.
+void flood(const BaseComplex& base, const std::array<Complex, 3>& corners, std::vector<FacePiece>& pieces) {
   const std::size_t first = pieces.size() - 1;
-  const auto& corners = map.face_corners[pieces.back().face];
   for (std::size_t at = first; at < pieces.size(); ++at) {
     const FacePiece here = pieces[at];
     std::array<Weights, 3> weights;
     for (int k = 0; k < 3; ++k) weights[k] = chart_barycentric(here.motion.apply(corners[k]));
     for (int edge = 0; edge < 3; ++edge) {
-      if (map.base.twins[3 * here.chart + edge] < 0 || !crosses(weights, edge)) continue;
-      const FacePiece there = step_across(map.base, here, edge);
+      if (base.twins[3 * here.chart + edge] < 0 || !crosses(weights, edge)) continue;
+      const FacePiece there = step_across(base, here, edge);
       const auto known = [&](const FacePiece& p) { return same(p, there); };
       if (pieces.size() - first >= kMaxPieces || std::any_of(pieces.begin() + first, pieces.end(), known)) continue;
       pieces.push_back(there);
@@ -115,7 +116,7 @@ void Development::place_beside_others(std::vector<int> faces) {
       const auto deepest = std::max_element(beside.begin(), beside.end(), [&](const FacePiece& p, const FacePiece& q) {
         return depth((p.motion * *motion).apply(middle)) < depth((q.motion * *motion).apply(middle));
       });
-      centre_[f] = walk_to_centroid(map_, f, {deepest->chart, f, deepest->motion * *motion}, middle);
+      centre_[f] = walk_to_centroid(map_.base, here, {deepest->chart, f, deepest->motion * *motion}, middle);
       open[f] = 0;
       return true;
     }
@@ -128,13 +129,39 @@ void Development::place_beside_others(std::vector<int> faces) {
 }
 
 void Development::append(int face, std::vector<FacePiece>& pieces) const {
-  const FacePiece own{map_.face_chart[face], face, {}};
+  const std::array<Complex, 3>& corners = map_.face_corners[face];
   const auto placed = centre_.find(face);
-  pieces.push_back(
-      placed != centre_.end()
-          ? placed->second
-          : walk_to_centroid(map_, face, own, anchor(map_, face).value_or(chart_position(1.0 / 3.0, 1.0 / 3.0))));
-  flood(map_, pieces);
+  if (placed == centre_.end()) {
+    const Complex start = anchor(map_, face).value_or(chart_position(1.0 / 3.0, 1.0 / 3.0));
+    return develop_triangle(map_.base, face, map_.face_chart[face], start, corners, pieces);
+  }
+  pieces.push_back(placed->second);
+  flood(map_.base, corners, pieces);
+}
+
+void develop_triangle(const BaseComplex& base, int face, int chart, Complex start,
+                      const std::array<Complex, 3>& corners, std::vector<FacePiece>& pieces) {
+  pieces.push_back(walk_to_centroid(base, corners, {chart, face, {}}, start));
+  flood(base, corners, pieces);
+}
+
+std::vector<std::vector<FacePiece>> pieces_by_chart(const Parameterization& map) {
+  constexpr std::size_t kBlock = 4096;
+  const std::size_t faces = map.surface.faces.size();
+  const Development development(map);
+  std::vector<std::vector<FacePiece>> blocks((faces + kBlock - 1) / kBlock);
+  parallel_for(faces, kBlock, [&](std::size_t begin, std::size_t end) {
+    std::vector<FacePiece>& pieces = blocks[begin / kBlock];
+    for (std::size_t f = begin; f < end; ++f) development.append(static_cast<int>(f), pieces);
+  });
+  std::vector<int> count(map.base.faces.size(), 0);
+  for (const auto& block : blocks)
+    for (const FacePiece& piece : block) ++count[piece.chart];
+  std::vector<std::vector<FacePiece>> charts(map.base.faces.size());
+  for (std::size_t c = 0; c < charts.size(); ++c) charts[c].reserve(count[c]);
+  for (const auto& block : blocks)
+    for (const FacePiece& piece : block) charts[piece.chart].push_back(piece);
+  return charts;
 }
 
 }  // namespace gsp

@@ -16,6 +16,17 @@ struct FacePiece {
 
 inline constexpr int kMaxPieces = 256;
 
+/// Appends a piece for each base face that a triangle reaches, which the pieces call `face`, first the one that holds
+/// its centroid. `corners` are in the chart of base face `chart`, in whose triangle `start` lies, a point of the
+/// corners' triangle and no base vertex, or one in the chart's sector. As `Development::append` does for faces of a
+/// map.
+void develop_triangle(const BaseComplex& base, int face, int chart, Complex start,
+                      const std::array<Complex, 3>& corners, std::vector<FacePiece>& pieces);
+
+/// The pieces of all faces of a map, by chart and within one by face. O(pieces), on all threads, the same on any
+/// number of them.
+std::vector<std::vector<FacePiece>> pieces_by_chart(const Parameterization& map);
+
 /// The faces of a map laid out over the base faces that they reach. `map` must outlive it.
 class Development {
  public:

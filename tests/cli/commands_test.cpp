@@ -151,6 +151,15 @@ TEST_CASE("the chain of commands: surface, map, remesh, stream, prefix, distance
   CHECK(closest < fitted);
   CHECK(gsp_run({"remesh", map, "-o", remeshed, "--positions", "neither"}).status == 2);
 
+  CHECK(gsp_run({"remesh", map, "-o", remeshed, "--kind", "normal"}).status == 2);
+  REQUIRE(
+      gsp_run({"remesh", map, "-o", folder.file("n.sr.ply"), "--kind", "normal", "--positions", "sampled"}).status ==
+      0);
+  const Ran info = gsp_run({"info", folder.file("n.sr.ply"), "--json"});
+  REQUIRE(info.status == 0);
+  CHECK(json::parse(info.out)["normal_percent"] > 90.0);
+  CHECK(json::parse(info.out)["boundary_vertices"] == 0);
+
   const Ran coded = gsp_run({"encode", remeshed, "-o", stream, "--json"});
   REQUIRE(coded.status == 0);
   CHECK(json::parse(coded.out)["bytes"] == size_of(stream));

@@ -7,8 +7,8 @@
 
 #include "coder/base_connectivity.h"
 #include "coder/coded_order.h"
-#include "coder/local_frames.h"
 #include "coder/rate_distortion.h"
+#include "remesh/filters/local_frames.h"
 #include "tests/cause_of.h"
 #include "tests/coder/sample_meshes.h"
 

@@ -1,4 +1,4 @@
-#include "coder/local_frames.h"
+#include "remesh/filters/local_frames.h"
 
 #include <cmath>
 #include <optional>
