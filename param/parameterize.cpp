@@ -111,7 +111,7 @@ struct Levels {
 };
 
 /// The map without folds that `make` has of the first simplification. Where its levels cannot be joined the last one is
-/// made larger, at the end as large as the surface.
+/// made larger, at the end as large as the surface. Throws Error: InvalidMap where that fails as well.
 SmoothedMap join_levels(const Levels& first, const ParameterizeOptions& options,
                         const std::function<std::optional<SmoothedMap>(const SimplifyResult&)>& make,
                         Progress& progress) {
@@ -122,6 +122,8 @@ SmoothedMap join_levels(const Levels& first, const ParameterizeOptions& options,
   };
   std::optional<SmoothedMap> map = make(first.simplified);
   while (!joined(map)) {
+    if (coarsest >= whole)
+      throw Error(Cause::InvalidMap, "no map of the surface could be made: its levels cannot be joined");
     coarsest = std::min(whole, kLargerLevel * coarsest);
     progress.note("the levels of the map could not be joined; the last one starts with " + std::to_string(coarsest) +
                   " vertices instead");
@@ -180,7 +182,7 @@ ParameterizeResult finish(const Mesh& input, const Start& start, Method method, 
   } else {
     atlas = *start.maps;
   }
-  if (method == Method::MapsSmoothed) smooth_by_loop(atlas, progress);
+  if (method == Method::MapsSmoothed) result.flips_before_repair = smooth_by_loop(atlas, progress);
   if (method == Method::Hybrid)
     relax_patch_pairs(atlas, LinearWeights(*atlas.surface, options.weights), kPairPasses, progress);
   result.map = atlas.finish(provenance(input, options, method, atlas));

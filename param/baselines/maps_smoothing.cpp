@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <optional>
 
+#include "param/atlas/folds.h"
+#include "param/baselines/smoothed_domain.h"
+#include "param/energy/untangle.h"
 #include "param/removal/flatten.h"
 
 namespace gsp {
@@ -10,213 +15,266 @@ namespace gsp {
 namespace {
 
 constexpr int kMostLevels = 8;
-constexpr double kRounding = 1e-9;
-constexpr int kLongestWalk = 4096;
+constexpr double kRounding = 1e-9;  // of a weight
+constexpr int kRepairRings = 16;    // of vertices around a fold that may move once more
+constexpr int kMostPieces = 64;     // base faces that one dyadic triangle reaches
 
-/// z -> turn·z + shift, a rigid motion of the plane.
-struct Motion {
-  Complex turn = 1.0, shift = 0.0;
-  Complex apply(Complex z) const { return turn * z + shift; }
+using FaceWeights = std::array<double, 3>;
+
+/// A dyadic triangle, or what it covers of another base face.
+struct DyadicTriangle {
+  int face;
+  std::array<int, 3> i, j;  ///< of its corners
 };
 
-/// Base triangles laid into the plane with their true side lengths, and the dyadic points of each as Loop moves them.
-class SmoothedDomain {
- public:
-  explicit SmoothedDomain(const Atlas& atlas) : atlas_(atlas), base_(atlas.base) {
-    lay_out();
-    for (const auto& corners : planes_) grids_.push_back({corners[0], corners[1], corners[2]});
-    const double per_face = double(atlas.surface->mesh.face_count()) / base_.face_count();
-    const int levels = std::clamp(static_cast<int>(std::ceil(std::log2(per_face) / 2.0)) + 1, 1, kMostLevels);
-    for (int level = 0; level < levels; ++level) subdivide();
-  }
+/// Where a vertex is in the smoothed domain, as far as is known.
+struct Found {
+  double least = -1e300;  ///< weight of the triangle's corners
+  int face = -1;
+  Transition change;  ///< from the vertex's chart to that of the face
+  Complex position;
+};
 
-  /// Gives the vertex the location t with L(t) = its initial one.
-  void move(Atlas& atlas, int vertex) const;
+/// The vertices in one base face by cells of their weights for corners 1 and 2.
+class FaceCells {
+ public:
+  void add(int vertex, const FaceWeights& weights) { all_.push_back({vertex, weights}); }
+  void sort() {
+    side_ = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(all_.size()))));
+    cells_.resize(static_cast<std::size_t>(side_) * side_);
+    for (std::size_t k = 0; k < all_.size(); ++k)
+      cells_[static_cast<std::size_t>(cell(all_[k].weights[2])) * side_ + cell(all_[k].weights[1])].push_back(
+          static_cast<int>(k));
+  }
+  /// Calls visit(vertex, weights) for those in a box of weights, and some around it.
+  template <class Visit>
+  void for_each_within(const std::array<FaceWeights, 3>& corners, Visit&& visit) const {
+    if (all_.empty()) return;
+    const auto range = [&](int k) {
+      const auto [low, high] = std::minmax({corners[0][k], corners[1][k], corners[2][k]});
+      return std::pair(cell(low - kRounding), cell(high + kRounding));
+    };
+    const auto [low1, high1] = range(1);
+    const auto [low2, high2] = range(2);
+    for (int b = low2; b <= high2; ++b)
+      for (int a = low1; a <= high1; ++a)
+        for (int k : cells_[static_cast<std::size_t>(b) * side_ + a]) visit(all_[k].vertex, all_[k].weights);
+  }
 
  private:
-  void lay_out();
-  void subdivide();
-  Complex new_point(int face, int i, int j) const;
-  Complex even_point(int face, int i, int j) const;
-  Complex odd_point(int face, int i, int j) const;
+  struct Entry {
+    int vertex;
+    FaceWeights weights;
+  };
+  int cell(double weight) const { return static_cast<int>(std::clamp(weight, 0.0, 0.999999) * side_); }
 
-  /// Dyadic point with weights (n-i-j, i, j)/n for the corners 0, 1, 2; rows of constant j.
-  std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * (n_ + 1) - j * (j - 1) / 2 + i; }
-  Complex at(int face, int i, int j) const { return grids_[face][index(i, j)]; }
-  /// The point `depth` rows inside edge k, `along` steps from corner k.
-  Complex at_edge(int face, int k, int along, int depth) const {
-    int weight[3];
-    weight[k] = n_ - along - depth;
-    weight[(k + 1) % 3] = along;
-    weight[(k + 2) % 3] = depth;
-    return at(face, weight[1], weight[2]);
-  }
-  /// The same behind edge k of the face, seen in the face's plane; `along` counts from the face's corner k + 1.
-  Complex behind_edge(int face, int k, int along, int depth) const {
-    const int twin = base_.twins[3 * face + k];
-    return unfold_[3 * face + k].apply(at_edge(twin / 3, twin % 3, along, depth));
-  }
-
-  const Atlas& atlas_;
-  const BaseComplex& base_;
-  std::vector<std::array<Complex, 3>> planes_;  ///< corners of each base triangle in its own plane
-  std::vector<Motion> unfold_;                  ///< per half-edge, the neighbour's plane into this face's plane
-  std::vector<std::vector<Complex>> grids_;
-  int n_ = 1;
+  std::vector<Entry> all_;
+  std::vector<std::vector<int>> cells_;
+  int side_ = 1;
 };
 
-void SmoothedDomain::lay_out() {
-  const auto& positions = atlas_.surface->mesh.positions;
-  for (const Triangle& t : base_.faces) {
-    const Vec3 p[3] = {positions[base_.vertices[t[0]]], positions[base_.vertices[t[1]]],
-                       positions[base_.vertices[t[2]]]};
-    const double side = std::max((p[1] - p[0]).norm(), 1e-12);
-    const double along = (p[1] - p[0]).dot(p[2] - p[0]) / side;
-    const double height = std::sqrt(std::max((p[2] - p[0]).squaredNorm() - along * along, 0.0));
-    // A base triangle without height would have no inside to walk in.
-    planes_.push_back({0.0, side, Complex(along, std::max(height, 1e-3 * side))});
-  }
-  unfold_.resize(base_.twins.size());
-  for (std::size_t h = 0; h < base_.twins.size(); ++h) {
-    const int twin = base_.twins[h];
-    if (twin < 0) continue;
-    const auto &here = planes_[h / 3], &there = planes_[twin / 3];
-    const Complex from = here[h % 3], to = here[(h % 3 + 1) % 3];
-    const Complex there_from = there[(twin % 3 + 1) % 3], there_to = there[twin % 3];
-    const Complex turn = (to - from) / (there_to - there_from);
-    unfold_[h] = {turn, from - turn * there_from};
-  }
-}
+/// A dyadic triangle of the domain as one of the two kinds in the grid of its base face: `Up` with the corners (i, j),
+/// (i+1, j), (i, j+1), or `Down` with (i+1, j), (i+1, j+1), (i, j+1).
+struct GridTriangle {
+  int face, i, j;
+  bool down;
 
-void SmoothedDomain::subdivide() {
-  std::vector<std::vector<Complex>> finer(grids_.size());
-  for (int f = 0; f < base_.face_count(); ++f)
-    for (int j = 0; j <= 2 * n_; ++j)
-      for (int i = 0; i + j <= 2 * n_; ++i) finer[f].push_back(new_point(f, i, j));
-  grids_ = std::move(finer);
-  n_ *= 2;
-}
-
-Complex SmoothedDomain::new_point(int face, int i, int j) const {
-  return i % 2 == 0 && j % 2 == 0 ? even_point(face, i / 2, j / 2) : odd_point(face, i, j);
-}
-
-Complex SmoothedDomain::even_point(int face, int i, int j) const {
-  const int weight[3] = {n_ - i - j, i, j};
-  const Complex here = at(face, i, j);
-  for (int k = 0; k < 3; ++k)
-    if (weight[k] == n_) return here;  // a base vertex
-  for (int k = 0; k < 3; ++k) {
-    if (weight[(k + 2) % 3] != 0) continue;
-    const int along = weight[(k + 1) % 3];
-    const Complex line = at_edge(face, k, along - 1, 0) + at_edge(face, k, along + 1, 0);
-    if (base_.twins[3 * face + k] < 0) return 0.75 * here + 0.125 * line;
-    const int back = n_ - along;
-    return 0.625 * here + 0.0625 * (line + at_edge(face, k, along - 1, 1) + at_edge(face, k, along, 1) +
-                                    behind_edge(face, k, back - 1, 1) + behind_edge(face, k, back, 1));
+  DyadicTriangle corners() const {
+    if (down) return {face, {i + 1, i + 1, i}, {j, j + 1, j + 1}};
+    return {face, {i, i + 1, i}, {j, j, j + 1}};
   }
-  return 0.625 * here + 0.0625 * (at(face, i + 1, j) + at(face, i - 1, j) + at(face, i, j + 1) + at(face, i, j - 1) +
-                                  at(face, i + 1, j - 1) + at(face, i - 1, j + 1));
-}
+};
 
-Complex SmoothedDomain::odd_point(int face, int i, int j) const {
-  const int weight[3] = {2 * n_ - i - j, i, j};
-  for (int k = 0; k < 3; ++k) {
-    if (weight[(k + 2) % 3] != 0) continue;  // on base edge k
-    const int along = (weight[(k + 1) % 3] - 1) / 2;
-    const Complex ends = at_edge(face, k, along, 0) + at_edge(face, k, along + 1, 0);
-    if (base_.twins[3 * face + k] < 0) return 0.5 * ends;
-    return 0.375 * ends + 0.125 * (at_edge(face, k, along, 1) + behind_edge(face, k, n_ - along - 1, 1));
-  }
-  // The two ends differ from (i, j)/2 by half a step along the edge's direction; the two wings by the other two corners
-  // of the triangles beside it.
-  if (j % 2 == 0) {
-    const int a = (i - 1) / 2, b = j / 2;
-    return 0.375 * (at(face, a, b) + at(face, a + 1, b)) + 0.125 * (at(face, a, b + 1) + at(face, a + 1, b - 1));
-  }
-  if (i % 2 == 0) {
-    const int a = i / 2, b = (j - 1) / 2;
-    return 0.375 * (at(face, a, b) + at(face, a, b + 1)) + 0.125 * (at(face, a + 1, b) + at(face, a - 1, b + 1));
-  }
-  const int a = (i - 1) / 2, b = (j - 1) / 2;
-  return 0.375 * (at(face, a + 1, b) + at(face, a, b + 1)) + 0.125 * (at(face, a, b) + at(face, a + 1, b + 1));
-}
+/// What a triangle covers of one base face.
+struct Piece {
+  int face;
+  PlaneMotion motion;  ///< from the plane of the triangle's face
+  Transition change;   ///< from the face's chart to that of the triangle's face
+};
 
-void SmoothedDomain::move(Atlas& atlas, int vertex) const {
-  const auto start = chart_barycentric(atlas.position[vertex]);
-  int face = atlas.patch[vertex];
-  const auto& plane = planes_[face];
-  Complex target = start[0] * plane[0] + start[1] * plane[1] + start[2] * plane[2];
-  Transition change;
-
-  // Walk over the dyadic triangles from the one where the vertex would be without smoothing. A triangle is the lower
-  // left corner (i, j) of its cell and whether it is the upper half.
-  int i = std::clamp(static_cast<int>(start[1] * n_), 0, n_ - 1);
-  int j = std::clamp(static_cast<int>(start[2] * n_), 0, n_ - 1 - i);
-  bool upper = i + j < n_ - 1 && (start[1] * n_ - i) + (start[2] * n_ - j) > 1.0;
-  double best = -1e300;
-  int best_face = face;
-  Complex best_position = atlas.position[vertex];
-  Transition best_change;
-  for (int step = 0; step < kLongestWalk; ++step) {
-    // Corners in the order (corner 0 side, corner 1 side, corner 2 side).
-    const int ci[3] = {upper ? i + 1 : i, upper ? i : i + 1, upper ? i + 1 : i};
-    const int cj[3] = {j, upper ? j + 1 : j, j + 1};
-    const auto w = barycentric(target, at(face, ci[0], cj[0]), at(face, ci[1], cj[1]), at(face, ci[2], cj[2]));
-    const int worst = static_cast<int>(std::min_element(w.begin(), w.end()) - w.begin());
-    if (w[worst] > best) {
-      best = w[worst];
-      best_face = face;
-      best_change = change;
-      const double u1 = (w[0] * ci[0] + w[1] * ci[1] + w[2] * ci[2]) / n_;
-      const double u2 = (w[0] * cj[0] + w[1] * cj[1] + w[2] * cj[2]) / n_;
-      best_position = chart_position(1.0 - u1 - u2, u1);
+/// Finds for every vertex the dyadic triangle that has moved onto it. A triangle may have moved out of its base face
+/// altogether, so where it is follows from its neighbours.
+class DomainInverse {
+ public:
+  DomainInverse(const Atlas& atlas, const SmoothedDomain& domain)
+      : domain_(domain), n_(domain.steps()), cells_(domain.base().faces.size()), found_(atlas.patch.size()) {
+    for (int v = 0; v < static_cast<int>(found_.size()); ++v)
+      if (atlas.is_free(v)) cells_[atlas.patch[v]].add(v, chart_barycentric(atlas.position[v]));
+    for (FaceCells& cells : cells_) cells.sort();
+    seen_.resize(domain.base().faces.size() * 2 * n_ * n_);
+    for (int f = 0; f < domain.base().face_count(); ++f)
+      for (int j = 0; j < n_; ++j)
+        for (int i = 0; i + j < n_; ++i) {
+          start_within({f, i, j, false});
+          if (i + j < n_ - 1) start_within({f, i, j, true});
+        }
+    for (std::size_t k = 0; k < open_.size(); ++k) {
+      const auto [here, start] = open_[k];
+      spread(here.corners(), start);
+      go_on(here);
     }
-    if (w[worst] >= 0.0) break;
-    if (upper) {  // corners (i+1,j), (i,j+1), (i+1,j+1)
-      if (worst == 0) ++j;
-      if (worst == 1) ++i;
-      upper = false;
-      continue;
-    }
-    // Lower triangle: behind corner 0 lies the upper half of the cell or, on the border, base edge 1.
-    const bool border = worst == 0 ? i + j == n_ - 1 : worst == 1 ? i == 0 : j == 0;
-    if (!border) {
-      upper = true;
-      if (worst == 1) --i;
-      if (worst == 2) --j;
-      continue;
-    }
-    const int k = (worst + 1) % 3, h = 3 * face + k, twin = base_.twins[h];
-    if (twin < 0) break;
-    const int weight[3] = {n_ - 1 - i - j, i, j};
-    const int along = weight[(k + 1) % 3];
-    const Motion& unfold = unfold_[h];
-    target = (target - unfold.shift) / unfold.turn;
-    change = base_.across(h) * change;
-    face = twin / 3;
-    int there[3];
-    there[twin % 3] = along;
-    there[(twin % 3 + 1) % 3] = n_ - 1 - along;
-    there[(twin % 3 + 2) % 3] = 0;
-    i = there[1];
-    j = there[2];
   }
-  // Around folds of the domain no triangle may hold the target: a position beyond one could lie anywhere.
-  if (best < -kRounding) return;
-  if (!best_change.is_identity() || best_face != atlas.patch[vertex])
-    atlas.change_chart(vertex, best_face, best_change);
-  atlas.position[vertex] = best_position;
-}
+
+  const Found& of(int vertex) const { return found_[vertex]; }
+
+ private:
+  /// A triangle whose centre has not left its base face lies where its plane says.
+  void start_within(const GridTriangle& here) {
+    const DyadicTriangle t = here.corners();
+    const Piece own = {t.face, {}, {}};
+    const FaceWeights centre = weights_at(own, middle(t, {0, 1, 2}));
+    if (!(*std::min_element(centre.begin(), centre.end()) >= 0.0)) return;
+    seen(here) = true;
+    open_.emplace_back(here, own);
+  }
+
+  /// The neighbours of the triangle last spread that are not located yet begin where it has the edge between.
+  void go_on(const GridTriangle& here) {
+    for (int side = 0; side < 3; ++side) {
+      Transition change;
+      PlaneMotion motion;
+      const std::optional<GridTriangle> next = beside(here, side, motion, change);
+      if (!next || seen(*next)) continue;
+      seen(*next) = true;
+      const Piece& piece = piece_at(middle(here.corners(), {side, (side + 1) % 3}));
+      open_.emplace_back(*next, Piece{piece.face, piece.motion * motion, change * piece.change});
+    }
+  }
+
+  char& seen(const GridTriangle& t) {
+    return seen_[((static_cast<std::size_t>(t.face) * n_ + t.j) * n_ + t.i) * 2 + (t.down ? 1 : 0)];
+  }
+
+  /// The triangle beyond side `side`, from corner `side` to the next; where it lies in another base face, the motion
+  /// from that face's plane and the change to its chart.
+  std::optional<GridTriangle> beside(const GridTriangle& t, int side, PlaneMotion& motion, Transition& change) const {
+    const auto [face, i, j, down] = t;
+    if (down) {
+      if (side == 2) return GridTriangle{face, i, j, false};
+      return GridTriangle{face, i + (side == 0), j + (side == 1), false};
+    }
+    const std::array<bool, 3> on_edge = {j == 0, i + j == n_ - 1, i == 0};
+    if (!on_edge[side]) return GridTriangle{face, i - (side == 2), j - (side == 0), true};
+    const int h = 3 * face + side, twin = domain_.base().twins[h];
+    if (twin < 0) return std::nullopt;
+    motion = domain_.unfold(h);
+    change = domain_.base().across(h);
+    const int along = n_ - 1 - std::array{i, j, n_ - 1 - j}[side];
+    const std::array<int, 3> there_i = {along, n_ - 1 - along, 0}, there_j = {0, along, n_ - 1 - along};
+    return GridTriangle{twin / 3, there_i[twin % 3], there_j[twin % 3], false};
+  }
+
+  /// The mean of some of a triangle's corners, in the plane of its face.
+  Complex middle(const DyadicTriangle& t, std::initializer_list<int> corners) const {
+    Complex sum = 0.0;
+    for (int c : corners) sum += domain_.at(t.face, t.i[c], t.j[c]);
+    return sum / static_cast<double>(corners.size());
+  }
+
+  FaceWeights weights_at(const Piece& piece, Complex z) const {
+    const auto& plane = domain_.corners(piece.face);
+    return barycentric(piece.motion.apply(z), plane[0], plane[1], plane[2]);
+  }
+
+  /// The piece of the triangle last spread that has a point of it deepest inside.
+  const Piece& piece_at(Complex z) const {
+    double deepest = -1e300;
+    const Piece* best = &pieces_.front();
+    for (const Piece& piece : pieces_) {
+      const FaceWeights w = weights_at(piece, z);
+      const double depth = std::min({w[0], w[1], w[2]});
+      if (!(depth > deepest)) continue;
+      deepest = depth;
+      best = &piece;
+    }
+    return *best;
+  }
+
+  /// No base vertex lies inside a triangle, so what it covers of a base face is connected through the edge by which it
+  /// came.
+  void spread(const DyadicTriangle& t, const Piece& start) {
+    const BaseComplex& base = domain_.base();
+    pieces_.assign(1, start);
+    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+      const Piece here = pieces_[p];
+      const std::array<FaceWeights, 3> corners = weights_in(here, t);
+      search(here, t, corners);
+      for (int k = 0; k < 3; ++k) {
+        const int h = 3 * here.face + k, twin = base.twins[h];
+        if (twin < 0 || !crosses(corners, k) || pieces_.size() == kMostPieces) continue;
+        const Piece next = {twin / 3, domain_.unfold(h).inverse() * here.motion,
+                            here.change * base.across(h).inverse()};
+        const auto known = [&](const Piece& other) { return other.face == next.face; };
+        if (std::none_of(pieces_.begin(), pieces_.end(), known)) pieces_.push_back(next);
+      }
+    }
+  }
+
+  std::array<FaceWeights, 3> weights_in(const Piece& piece, const DyadicTriangle& t) const {
+    std::array<FaceWeights, 3> weights;
+    for (int c = 0; c < 3; ++c) weights[c] = weights_at(piece, domain_.at(t.face, t.i[c], t.j[c]));
+    return weights;
+  }
+
+  /// Whether a triangle of the given weights reaches beyond edge k of the base face through that edge itself.
+  static bool crosses(const std::array<FaceWeights, 3>& corners, int k) {
+    const int across = (k + 2) % 3, along = (k + 1) % 3;
+    double low = 2.0, high = -1.0;
+    for (int c = 0; c < 3; ++c) {
+      const FaceWeights &p = corners[c], &q = corners[(c + 1) % 3];
+      if ((p[across] < 0.0) == (q[across] < 0.0)) continue;
+      const double at = p[along] + p[across] / (p[across] - q[across]) * (q[along] - p[along]);
+      low = std::min(low, at);
+      high = std::max(high, at);
+    }
+    return std::min(high, 1.0) > std::max(low, 0.0);
+  }
+
+  void search(const Piece& piece, const DyadicTriangle& t, const std::array<FaceWeights, 3>& corners) {
+    const auto flat = [](const FaceWeights& w) { return Complex(w[1], w[2]); };
+    const Complex a = flat(corners[0]), b = flat(corners[1]), c = flat(corners[2]);
+    if (!(chart_area(a, b, c) > 0.0)) return;
+    cells_[piece.face].for_each_within(corners, [&](int vertex, const FaceWeights& at) {
+      const FaceWeights w = barycentric(flat(at), a, b, c);
+      const double least = std::min({w[0], w[1], w[2]});
+      Found& found = found_[vertex];
+      if (least <= found.least) return;
+      const double u1 = (w[0] * t.i[0] + w[1] * t.i[1] + w[2] * t.i[2]) / domain_.steps();
+      const double u2 = (w[0] * t.j[0] + w[1] * t.j[1] + w[2] * t.j[2]) / domain_.steps();
+      found = {least, t.face, piece.change, chart_position(1.0 - u1 - u2, u1)};
+    });
+  }
+
+  const SmoothedDomain& domain_;
+  const int n_;
+  std::vector<FaceCells> cells_;
+  std::vector<Found> found_;
+  std::vector<Piece> pieces_;
+  std::vector<char> seen_;                            ///< per grid triangle
+  std::vector<std::pair<GridTriangle, Piece>> open_;  ///< located by a piece that they cover
+};
 
 }  // namespace
 
-void smooth_by_loop(Atlas& atlas, Progress& progress) {
+int smooth_by_loop(Atlas& atlas, Progress& progress) {
   progress.report("smooth by Loop", 0.0);
-  const SmoothedDomain domain(atlas);
-  for (int v = 0; v < atlas.surface->mesh.vertex_count(); ++v)
-    if (atlas.patch[v] >= 0 && atlas.corner[v] < 0) domain.move(atlas, v);
+  const double per_face = double(atlas.surface->mesh.face_count()) / atlas.base.face_count();
+  const int levels = std::clamp(static_cast<int>(std::ceil(std::log2(per_face) / 2.0)) + 1, 1, kMostLevels);
+  const SmoothedDomain domain(atlas.base, true_shapes(atlas.base, atlas.surface->mesh.positions), levels);
+  const DomainInverse inverse(atlas, domain);
+  for (int v = 0; v < atlas.surface->mesh.vertex_count(); ++v) {
+    const Found& found = inverse.of(v);
+    if (found.least < -kRounding) continue;  // corners, and the boundary, which stays
+    if (!found.change.is_identity() || found.face != atlas.patch[v]) atlas.change_chart(v, found.face, found.change);
+    atlas.position[v] = found.position;
+  }
+  const int folded = static_cast<int>(find_folds(atlas).faces.size());
+  if (folded > 0) {
+    repair_folds(atlas, kRepairRings, progress);
+    atlas.reassign_all();
+  }
   progress.report("smooth by Loop", 1.0);
+  return folded;
 }
 
 }  // namespace gsp
