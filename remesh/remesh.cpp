@@ -11,7 +11,9 @@
 #include "param/map/development.h"
 #include "remesh/chart_samples.h"
 #include "remesh/closest_fit.h"
+#include "remesh/displaced/displaced_remesh.h"
 #include "remesh/fit_positions.h"
+#include "remesh/lattice_corners.h"
 #include "remesh/normal/normal_remesh.h"
 
 namespace gsp {
@@ -59,38 +61,12 @@ FitEffort effort_of(Positions positions) {
   return positions == Positions::Closest ? kClosest : kFitted;
 }
 
-/// Lattice coordinates, weights of corners 1 and 2 times 2^level, of the three corners of face `index` among those that
-/// quadrisecting a base face makes, by the numbering rule of semiregular.h.
-std::array<std::array<int, 2>, 3> lattice_corners(int level, int index) {
-  const int n = 1 << level;
-  std::array<std::array<int, 2>, 3> c = {{{0, 0}, {n, 0}, {0, n}}};
-  for (int l = level - 1; l >= 0; --l) {
-    const auto middle = [&](int a, int b) {
-      return std::array<int, 2>{(c[a][0] + c[b][0]) / 2, (c[a][1] + c[b][1]) / 2};
-    };
-    const auto ab = middle(0, 1), bc = middle(1, 2), ca = middle(2, 0);
-    switch ((index >> (2 * l)) & 3) {
-      case 0:
-        c = {c[0], ab, ca};
-        break;
-      case 1:
-        c = {ab, c[1], bc};
-        break;
-      case 2:
-        c = {ca, bc, c[2]};
-        break;
-      default:
-        c = {ab, bc, ca};
-    }
-  }
-  return c;
-}
-
 void require_built(const RemeshOptions& options) {
-  if (options.kind == RemeshKind::Parametric) return;
+  if (options.kind == RemeshKind::Parametric || options.kind == RemeshKind::Displaced) return;
   const std::string kind = remesh_kind_name(options.kind);
   if (options.kind != RemeshKind::Normal)
-    throw Error(Cause::BadOption, "remeshes of kind " + kind + " are not built yet; parametric and normal ones are");
+    throw Error(Cause::BadOption,
+                "remeshes of kind " + kind + " are not built yet; parametric, normal and displaced ones are");
   if (options.positions != Positions::Sampled)
     throw Error(Cause::BadOption, "a remesh of kind " + kind + " has sampled positions only, not " +
                                       positions_name(options.positions) + " ones");
@@ -239,6 +215,20 @@ class Remesher {
   std::vector<int> gaps_;
 };
 
+/// Fitted to a sampled remesh of at least one level more, whose vertices are as many as the input's faces.
+SemiregularMesh displaced(const Parameterization& map, int level, Positions positions, Progress& progress) {
+  int finer = level + 1;
+  const auto faces = [&](int at) { return static_cast<long long>(map.base.face_count()) << (2 * at); };
+  while (faces(finer) < 2 * static_cast<long long>(input_face_count(map))) ++finer;
+  while (finer > level && (finer > kMaxSubdivisionLevel || faces(finer) > INT_MAX / 3)) --finer;
+  RemeshOptions sampled;
+  sampled.level = finer;
+  sampled.positions = Positions::Sampled;
+  DisplacedOptions options;
+  options.positions = positions;
+  return displaced_remesh(remesh(map, sampled, progress), level, options, progress);
+}
+
 }  // namespace
 
 SemiregularMesh remesh(const Parameterization& map, const RemeshOptions& options, Progress& progress) {
@@ -246,6 +236,7 @@ SemiregularMesh remesh(const Parameterization& map, const RemeshOptions& options
   require_well_formed(map);
   if (map.base.faces.empty()) throw Error(Cause::InvalidMap, "a map without base faces has nothing to remesh");
   const int level = chosen_level(map, options);
+  if (options.kind == RemeshKind::Displaced) return displaced(map, level, options.positions, progress);
   progress.report("remesh", 0.0);
   const std::vector<std::vector<FacePiece>> pieces = pieces_by_chart(map);
   progress.report("remesh", 0.3);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -67,6 +68,12 @@ SubdivisionLevel subdivide(const SubdivisionLevel& coarse);
 /// 0..kMaxSubdivisionLevel. O(total faces).
 std::vector<SubdivisionLevel> subdivision_levels(int base_vertices, const std::vector<Triangle>& base_faces, int level);
 
+/// The control points of a Loop surface along whose normals the vertices of a mesh lie (displacement.h).
+struct ControlMesh {
+  std::vector<Vec3> points;  ///< #B, whole multiples of `grid` in each coordinate
+  double grid = 0.0;         ///< 4, 5, 6 or 7 times a power of two, so that multiples and their quotients are exact
+};
+
 /// A mesh with subdivision connectivity: base faces quadrisected `level` times, positions level by level
 /// (base vertices first, then for each level the vertices of its edges in edge order).
 struct SemiregularMesh {
@@ -74,6 +81,7 @@ struct SemiregularMesh {
   int base_vertices = 0;
   std::vector<Triangle> base_faces;
   std::vector<Vec3> positions;
+  std::optional<ControlMesh> control = {};  ///< of a displaced mesh
 
   /// The finest level as a plain mesh.
   Mesh mesh() const;

@@ -5,8 +5,11 @@
 #include <optional>
 #include <sstream>
 
+#include "mesh/atomic_file.h"
 #include "mesh/error.h"
 #include "mesh/io.h"
+#include "mesh/ply_elements.h"
+#include "remesh/filters/displacement.h"
 
 namespace gsp {
 
@@ -16,6 +19,7 @@ constexpr const char* kSignature = "gsp semiregular 1";
 
 struct Counts {
   std::optional<int> level, base_vertices, base_faces;
+  std::optional<double> control_grid;
 };
 
 /// What the PLY header's comments say; nothing where the signature is missing.
@@ -32,8 +36,14 @@ std::optional<Counts> read_counts(const std::string& path) {
     if (line == std::string("comment ") + kSignature) signed_by_us = true;
     std::istringstream words(line);
     std::string comment, key;
+    if (!(words >> comment >> key) || comment != "comment") continue;
+    if (key == "control_grid") {
+      double grid = 0.0;
+      if (words >> grid) counts.control_grid = grid;
+      continue;
+    }
     int value = 0;
-    if (!(words >> comment >> key >> value) || comment != "comment") continue;
+    if (!(words >> value)) continue;
     if (key == "level") counts.level = value;
     if (key == "base_vertices") counts.base_vertices = value;
     if (key == "base_faces") counts.base_faces = value;
@@ -56,6 +66,45 @@ Triangle base_face(const std::vector<Triangle>& faces, int level, std::int64_t f
   return t;
 }
 
+PlyProperty numbers(const std::string& name) { return {name, PlyType::Float64, {}, {}, {}}; }
+
+PlyElement ply_control(const ControlMesh& control) {
+  PlyElement element{"control", control.points.size(), {numbers("x"), numbers("y"), numbers("z")}};
+  for (const Vec3& p : control.points)
+    for (int k = 0; k < 3; ++k) element.properties[k].values.push_back(p[k]);
+  return element;
+}
+
+ControlMesh read_control(const std::string& path, double grid) {
+  const PlyDocument document = read_ply(path);
+  const PlyElement* element = document.find("control");
+  ControlMesh control{{}, grid};
+  if (!element) throw Error(Cause::Malformed, path + ": no element 'control'");
+  control.points.resize(element->count);
+  int k = 0;
+  for (const char* name : {"x", "y", "z"}) {
+    const PlyProperty* property = element->scalar(name);
+    if (!property) throw Error(Cause::Malformed, path + ": control points without " + name);
+    for (std::size_t b = 0; b < element->count; ++b) control.points[b][k] = property->values[b];
+    ++k;
+  }
+  return control;
+}
+
+void write_displaced(const std::string& path, const SemiregularMesh& mesh, std::vector<std::string> comments) {
+  std::ostringstream grid;
+  grid.precision(17);
+  grid << "control_grid " << mesh.control->grid;
+  comments.push_back(grid.str());
+  const Mesh plain = mesh.mesh();
+  PlyElement vertices = ply_vertices(plain);
+  vertices.properties.push_back(numbers("displacement"));
+  vertices.properties.back().values = displaced_form(mesh).displacements.along;
+  AtomicFile file(path);
+  write_ply(file.stream(), {std::move(comments), {std::move(vertices), ply_faces(plain), ply_control(*mesh.control)}});
+  file.commit();
+}
+
 }  // namespace
 
 void write_semiregular(const std::string& path, const SemiregularMesh& mesh,
@@ -64,7 +113,10 @@ void write_semiregular(const std::string& path, const SemiregularMesh& mesh,
                                        "base_vertices " + std::to_string(mesh.base_vertices),
                                        "base_faces " + std::to_string(mesh.base_faces.size())};
   comments.insert(comments.end(), provenance.begin(), provenance.end());
-  write_mesh(path, mesh.mesh(), comments);
+  if (mesh.control)
+    write_displaced(path, mesh, std::move(comments));
+  else
+    write_mesh(path, mesh.mesh(), comments);
 }
 
 SemiregularMesh read_semiregular(const std::string& path) {
@@ -92,6 +144,10 @@ SemiregularMesh read_semiregular(const std::string& path) {
     if (finest.faces[f] != plain.faces[f])
       throw Error(Cause::NoSubdivisionConnectivity, path + ": a face is not the one its level has", Element::Face, f);
   if (finest.vertex_count != plain.vertex_count()) refuse(path, "the number of vertices is not the level's");
+  if (counts->control_grid) {
+    mesh.control = read_control(path, *counts->control_grid);
+    displaced_form(mesh);
+  }
   return mesh;
 }
 

@@ -43,7 +43,11 @@ void VertexSystem::add_spring(int edge, double stiffness, const Vec3& pull) {
 }
 
 void VertexSystem::add_spring_to_place(int vertex, double stiffness, const Vec3& pull) {
-  vertex_blocks_[vertex].diagonal().array() += stiffness;
+  add_to_vertex(vertex, stiffness * Eigen::Matrix3d::Identity(), pull);
+}
+
+void VertexSystem::add_to_vertex(int vertex, const Eigen::Matrix3d& form, const Vec3& pull) {
+  vertex_blocks_[vertex] += form;
   right_[vertex] += pull;
 }
 

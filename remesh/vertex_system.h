@@ -21,6 +21,8 @@ class VertexSystem {
   /// against it on the second.
   void add_spring(int edge, double stiffness, const Vec3& pull);
   void add_spring_to_place(int vertex, double stiffness, const Vec3& pull);
+  /// The same with any quadratic form.
+  void add_to_vertex(int vertex, const Eigen::Matrix3d& form, const Vec3& pull);
 
   /// #V moves, zero of vertices that are not free: the least energy to 1e-2 in its own norm, by conjugate gradients
   /// preconditioned by the vertices' blocks. Needs a positive definite system. O(V) an iteration, one thread.

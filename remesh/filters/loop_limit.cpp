@@ -150,4 +150,27 @@ std::vector<Vec3> loop_limit_normals(const SubdivisionLevel& level, const std::v
   return normals;
 }
 
+std::vector<Vec3> loop_limit_conormals(const SubdivisionLevel& level, const std::vector<Vec3>& positions,
+                                       const std::vector<Vec3>& normals) {
+  // The spline's tangent is along the chord between the vertices on both sides: each boundary edge, which runs with the
+  // surface on its left, gives a half of it.
+  std::vector<Vec3> chords(level.vertex_count, Vec3::Zero());
+  std::vector<int> boundary_edges(level.vertex_count, 0);
+  for (int e = 0; e < level.edge_count(); ++e) {
+    if (level.edge_faces[e][1] >= 0) continue;
+    const auto [a, b] = level.edges[e];
+    const Vec3 along = positions[b] - positions[a];
+    for (int v : {a, b}) {
+      chords[v] += along;
+      ++boundary_edges[v];
+    }
+  }
+  std::vector<Vec3> conormals(level.vertex_count, Vec3::Zero());
+  for (int v = 0; v < level.vertex_count; ++v) {
+    if (boundary_edges[v] != 2) continue;
+    if (const auto outward = unit(cross(chords[v], normals[v]))) conormals[v] = *outward;
+  }
+  return conormals;
+}
+
 }  // namespace gsp

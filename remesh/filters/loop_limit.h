@@ -17,4 +17,10 @@ std::unique_ptr<Filter> loop_limit_points(const SubdivisionLevel& level);
 /// fixes and in a fixed order: the same bits on every machine. O(V).
 std::vector<Vec3> loop_limit_normals(const SubdivisionLevel& level, const std::vector<Vec3>& positions);
 
+/// #V unit vectors that lie in the limit surface and leave it at right angles to its boundary curve; zero for vertices
+/// that do not have two boundary edges and where the curve stands still. `normals`: those of the limit surface. O(V),
+/// by the same operations.
+std::vector<Vec3> loop_limit_conormals(const SubdivisionLevel& level, const std::vector<Vec3>& positions,
+                                       const std::vector<Vec3>& normals);
+
 }  // namespace gsp

@@ -17,6 +17,7 @@ SmoothSurface smooth_surface(const std::vector<SubdivisionLevel>& levels, std::v
   surface.points.assign(control.size(), Vec3::Zero());
   loop_limit_points(levels.back())->add(control.data(), surface.points.data());
   surface.normals = loop_limit_normals(levels.back(), control);
+  surface.conormals = loop_limit_conormals(levels.back(), control, surface.normals);
   return surface;
 }
 

@@ -10,6 +10,8 @@ namespace gsp {
 struct SmoothSurface {
   std::vector<Vec3> points;   ///< #V
   std::vector<Vec3> normals;  ///< #V, unit
+  /// #V, unit vectors out of the surface at right angles to its boundary; zero inside.
+  std::vector<Vec3> conormals;
 };
 
 /// `levels`: from the base on; the surface is taken at the vertices of the last. `control`: the base's vertices. The
