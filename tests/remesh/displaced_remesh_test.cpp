@@ -26,7 +26,7 @@ SemiregularMesh placed(const Mesh& base, int level, Place place) {
   return {level, base.vertex_count(), base.faces, fine.positions};
 }
 
-SemiregularMesh on_sphere(int level) {
+SemiregularMesh spherical(int level) {
   return placed(shapes::icosahedron(), level, [](const Vec3& p) { return p.normalized(); });
 }
 
@@ -96,7 +96,7 @@ TEST_CASE("the points of a control map are those of subdivision") {
 }
 
 TEST_CASE("sampled displacements of a sphere end on it, and all base vertices have the same") {
-  const SemiregularMesh sphere = on_sphere(5);
+  const SemiregularMesh sphere = spherical(5);
   const SemiregularMesh mesh = displaced_to(sphere, 3, Positions::Sampled);
   // The target's faces lie within their sagitta, an eighth of the squared edge, of the sphere.
   const double edge = 2.0 * std::sin(0.5 * 1.108 / 32);
@@ -109,7 +109,7 @@ TEST_CASE("sampled displacements of a sphere end on it, and all base vertices ha
 }
 
 TEST_CASE("a fit is nearer to a sphere than samples of it, whose chords lie inside") {
-  const SemiregularMesh sphere = on_sphere(5);
+  const SemiregularMesh sphere = spherical(5);
   const auto mean_radius = [](const SemiregularMesh& mesh) {
     const Mesh plain = mesh.mesh();
     double sum = 0.0;
@@ -190,7 +190,7 @@ TEST_CASE("grids of control points are a quarter apart within an octave and neve
 
 TEST_CASE("what cannot be displaced is refused") {
   Progress silent;
-  const SemiregularMesh sphere = on_sphere(2);
+  const SemiregularMesh sphere = spherical(2);
   CHECK(cause_of([&] { displaced_remesh(sphere, 3, {}, silent); }) == Cause::BadOption);
   CHECK(cause_of([&] { displaced_remesh(sphere, 1, {Positions::Fitted, 3}, silent); }) == Cause::BadOption);
   SemiregularMesh point = sphere;
