@@ -36,6 +36,7 @@ Json method_report(const MethodSummary& m) {
     report["no_bd"] = m.no_bd;
   }
   if (m.bytes_ratio) report["bytes_ratio"] = *m.bytes_ratio;
+  if (m.lossless_bytes) report["lossless_bytes"] = *m.lossless_bytes;
   return report;
 }
 

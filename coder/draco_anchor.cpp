@@ -59,16 +59,16 @@ void require(const draco::Status& status) {
 
 }  // namespace
 
-AnchorPoint draco_round_trip(const Mesh& mesh, int quantization_bits) {
-  if (quantization_bits < 1 || quantization_bits > 30)
+AnchorPoint draco_round_trip(const Mesh& mesh, std::optional<int> quantization_bits) {
+  if (quantization_bits && (*quantization_bits < 1 || *quantization_bits > 30))
     throw Error(Cause::BadOption,
-                "Draco's quantization of " + std::to_string(quantization_bits) + " bits is not in 1..30");
+                "Draco's quantization of " + std::to_string(*quantization_bits) + " bits is not in 1..30");
   if (mesh.faces.empty()) throw Error(Cause::NoFaces, "Draco codes surfaces with at least one face");
   const std::unique_ptr<draco::Mesh> input = to_draco(mesh);
   draco::Encoder encoder;
   encoder.SetSpeedOptions(0, 0);
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
-  encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, quantization_bits);
+  if (quantization_bits) encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, *quantization_bits);
   draco::EncoderBuffer coded;
   require(encoder.EncodeMeshToBuffer(*input, &coded));
 

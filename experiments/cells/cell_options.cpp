@@ -207,11 +207,18 @@ std::vector<std::string> map_method_words() { return words_of(kMethods, method_n
 
 std::vector<std::string> method_words() {
   std::vector<std::string> words = map_method_words();
-  words.insert(words.end(), {"draco", "decimate-draco"});
+  words.insert(words.end(), anchor_words().begin(), anchor_words().end());
   return words;
 }
 
-bool is_anchor(const std::string& method) { return method == "draco" || method == "decimate-draco"; }
+const std::vector<std::string>& anchor_words() {
+  static const std::vector<std::string> words = {"draco", "decimate-draco", "lindstrom-turk-draco"};
+  return words;
+}
+
+bool is_anchor(const std::string& method) {
+  return std::find(anchor_words().begin(), anchor_words().end(), method) != anchor_words().end();
+}
 
 const char* stream_mode_name(StreamMode mode) { return mode == StreamMode::Fixed ? "fixed" : "embedded"; }
 

@@ -38,20 +38,23 @@ const char* coder_name(StreamMode mode);
 
 /// Everything that a cell depends on besides its surface.
 struct CellOptions {
-  std::string method = "gsp";        ///< gsp, maps, maps-smoothed, hybrid, draco, decimate-draco
+  std::string method = "gsp";        ///< of `method_words`
   ParameterizeOptions parameterize;  ///< whose `method` says nothing here
   RemeshOptions remesh;
   EncodeOptions encode;
   StreamMode mode = StreamMode::Embedded;
   std::vector<std::size_t> budgets;  ///< bytes to decode; empty: 256, 512, 1024, ... and the whole stream
-  std::size_t samples = 200000;  ///< of the distance, per direction; decimate-draco, which has many points, takes half
-  std::uint64_t seed = 1;        ///< of the samples; they measure the remesh too
+  std::size_t samples = 200000;      ///< of the distance, per direction; decimations, which have many points, take half
+  std::uint64_t seed = 1;            ///< of the samples; they measure the remesh too
 };
 
 /// The words of `CellOptions::method`, and those that stand for maps.
 std::vector<std::string> method_words();
 std::vector<std::string> map_method_words();
-/// True for Draco and decimate-then-Draco, which have no map.
+/// The others, which have no map: "draco", the input coded by Draco; "decimate-draco", the same after decimation by
+/// quadrics; "lindstrom-turk-draco", the same after the decimation that keeps the volume (coder/anchors.h).
+const std::vector<std::string>& anchor_words();
+/// True for one of them.
 bool is_anchor(const std::string& method);
 
 /// "default" and "paper": what options of the map are where none is given.

@@ -1,11 +1,11 @@
 #include "experiments/check/export.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "experiments/curve/curve_csv.h"
+#include "experiments/curve/summary.h"
 #include "experiments/output/quoting.h"
 #include "experiments/store/json_file.h"
 #include "experiments/sweep/sweep.h"
@@ -36,7 +36,7 @@ std::string file_name(const std::string& text, const std::string& ending) {
 Json compressai_json(const StoredCell& cell) {
   Json bpp = Json::array(), psnr = Json::array();
   for (const CurvePoint& point : cell.points()) {
-    if (!std::isfinite(point.psnr_db)) continue;
+    if (!on_a_curve(point)) continue;
     bpp.push_back(point.bits_per_vertex);
     psnr.push_back(point.psnr_db);
   }
@@ -52,7 +52,7 @@ Json batch_json(const std::string& label, const std::vector<StoredCell>& cells) 
     // Streams of their own for each size are made while they are measured, without a time of their own.
     const StageResult* encode = cell.options.mode == StreamMode::Fixed ? nullptr : cell.stage(StageKind::Encode);
     for (const CurvePoint& point : cell.points())
-      if (cell.label == label && std::isfinite(point.psnr_db))
+      if (cell.label == label && on_a_curve(point))
         rows.push_back(
             {cell.model, point.bytes, point.psnr_db, encode ? Json(encode->seconds) : Json(0.0), point.bytes});
   }

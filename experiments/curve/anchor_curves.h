@@ -1,19 +1,25 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "coder/anchors.h"
 #include "experiments/curve/meter.h"
 
 namespace gsp {
 
-/// Draco on the input surface at 7 to 13 bits a coordinate.
+/// Draco on the input surface at 7 to 13 bits a coordinate, and without quantization: a row whose coder is
+/// `kDracoLossless`.
 std::vector<CurvePoint> draco_curve(const Meter& meter, std::size_t samples, Progress& progress);
 
-/// What a practitioner does today: quadric decimation to several sizes, each coded by Draco at 7 to 12 bits; of all
-/// those the upper envelope. Chosen with few samples, then measured with `samples`.
-std::vector<CurvePoint> decimate_draco_curve(const Meter& meter, std::size_t samples, Progress& progress);
+/// What a practitioner does today: the surface and decimations of it to `decimation_sizes`, each coded by Draco at
+/// those of 4 to 16 bits that may lie on the upper envelope; the points of that envelope, without those that sizes in
+/// between would pass. 100,000 faces take about 12 CPU s.
+std::vector<CurvePoint> decimate_draco_curve(const Meter& meter, Decimation decimation, std::size_t samples,
+                                             Progress& progress);
 
-/// Face counts to decimate to, descending: log-spaced, each about 3/4 of the one before, from half of `faces` to 64.
+/// Face counts, falling and different: `faces`, and from there three to an octave down to 20,000, six to an octave down to
+/// 20. A curve of twice as many is within 0.3 dB from 1 to 16 KB (bench/README.md, "Anchors").
 std::vector<int> decimation_sizes(int faces);
 
 }  // namespace gsp

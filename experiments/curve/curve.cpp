@@ -55,7 +55,7 @@ CurveRun rate_distortion_curve(const Mesh& mesh, const std::string& model, const
     Progress named = progress.within(method);
     append(method_curve(results[i], method, options, meter, named));
   }
-  for (const char* anchor : {"draco", "decimate-draco"}) {
+  for (const std::string& anchor : anchor_words()) {
     if (!options.anchors) break;
     std::vector<CurvePoint> points = anchor_curve(anchor, meter, options.samples, progress);
     for (CurvePoint& point : points) describe(point, cell_options(options, anchor), {});

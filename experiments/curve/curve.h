@@ -10,11 +10,15 @@
 
 namespace gsp {
 
+/// The coder of the row that tells at how many bytes Draco codes the input without loss. It is no point of a curve: the
+/// steps between a grid and no grid at all have no points.
+inline constexpr const char* kDracoLossless = "draco-lossless";
+
 /// One row of curve.csv: one decoded size of one method on one model. Distances are relative to the input's
 /// bounding-box diagonal, bytes are those that were decoded. Units and meanings stand in point_fields.cpp.
 struct CurvePoint {
   std::string model;
-  std::string method;  ///< gsp, maps, maps-smoothed, hybrid, draco, decimate-draco
+  std::string method;  ///< gsp, maps, maps-smoothed, hybrid, or an anchor of `anchor_words`
   double gamma = 0.0, mu = 0.0;
   int base_vertices = 0, base_faces = 0, level = 0;
   std::string wavelet, coder;
@@ -46,9 +50,9 @@ struct CurveOptions {
   /// each.
   std::vector<StreamMode> modes = {StreamMode::Embedded};
   std::vector<std::size_t> budgets;  ///< bytes; empty: 256, 512, 1024, ... up to the whole stream
-  std::size_t samples = 200000;      ///< per direction and point; decimate-draco, which has many points, takes half
+  std::size_t samples = 200000;      ///< per direction and point; decimations, which have many points, take half
   std::uint64_t seed = 1;
-  bool anchors = true;  ///< Draco on the input and decimate-then-Draco
+  bool anchors = true;  ///< the curves of `anchor_words`
   /// Called with all that is measured so far after each method, so that an interrupt loses at most one of them.
   std::function<void(const CurveRun&)> on_progress;
 };

@@ -24,6 +24,21 @@ RateCurve upper_envelope(RateCurve points) {
   return envelope;
 }
 
+RateCurve without_dips(RateCurve envelope, double octaves) {
+  for (std::size_t i = 1; i + 1 < envelope.size();) {
+    const RatePoint &left = envelope[i - 1], &middle = envelope[i], &right = envelope[i + 1];
+    const bool near = std::log2(right.bytes / left.bytes) <= octaves;
+    if (near && middle.psnr_db < interpolate(std::log(middle.bytes), std::log(left.bytes), left.psnr_db,
+                                             std::log(right.bytes), right.psnr_db)) {
+      envelope.erase(envelope.begin() + static_cast<std::ptrdiff_t>(i));
+      i = std::max<std::size_t>(i - 1, 1);  // what was dropped may have held up the one before
+    } else {
+      ++i;
+    }
+  }
+  return envelope;
+}
+
 std::optional<double> psnr_at(const RateCurve& curve, double bytes) {
   if (curve.empty() || bytes < curve.front().bytes || bytes > curve.back().bytes) return std::nullopt;
   const auto right = std::lower_bound(curve.begin(), curve.end(), bytes,

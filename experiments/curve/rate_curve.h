@@ -18,6 +18,11 @@ using RateCurve = std::vector<RatePoint>;
 /// Points with non-finite PSNR or without bytes are left out. O(n log n).
 RateCurve upper_envelope(RateCurve points);
 
+/// The envelope without the points that lie under the chord of two others at most `octaves` of bytes apart. Of an
+/// envelope of samples of a smooth curve, it leaves out where the samples miss the curve, and keeps its large shape, be
+/// that hollow or not.
+RateCurve without_dips(RateCurve envelope, double octaves);
+
 /// PSNR of an ascending curve at a size; empty outside its range.
 std::optional<double> psnr_at(const RateCurve& curve, double bytes);
 

@@ -68,7 +68,9 @@ std::vector<CurvePoint> decoded_streams(const std::vector<Bytes>& streams, const
 
 std::vector<CurvePoint> anchor_curve(const std::string& method, const Meter& meter, std::size_t samples,
                                      Progress& progress) {
-  return method == "draco" ? draco_curve(meter, samples, progress) : decimate_draco_curve(meter, samples / 2, progress);
+  if (method == "draco") return draco_curve(meter, samples, progress);
+  const Decimation decimation = method == "decimate-draco" ? Decimation::Quadrics : Decimation::Volume;
+  return decimate_draco_curve(meter, decimation, samples / 2, progress);
 }
 
 std::vector<std::size_t> byte_budgets(const std::vector<std::size_t>& wanted, std::size_t header, std::size_t whole) {

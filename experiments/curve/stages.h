@@ -41,7 +41,7 @@ std::vector<Bytes> fixed_streams(const SemiregularMesh& mesh, const EncodeOption
 std::vector<CurvePoint> decoded_streams(const std::vector<Bytes>& streams, const Meter& meter, std::size_t samples,
                                         Progress& progress);
 
-/// Rows of an anchor, "draco" or "decimate-draco", whose many points take half of the samples.
+/// Rows of an anchor of `anchor_words`; decimations, which have many points, take half of the samples.
 std::vector<CurvePoint> anchor_curve(const std::string& method, const Meter& meter, std::size_t samples,
                                      Progress& progress);
 

@@ -66,6 +66,10 @@ void print_model(std::ostream& out, const CurveSummary& summary) {
   }
   for (std::size_t i = 1; i < summary.methods.size(); ++i)
     print_bd(out, summary.methods.front().method, summary.methods[i]);
+  for (const MethodSummary& m : summary.methods)
+    if (m.lossless_bytes)
+      fmt::print(out, "  {} codes the input without loss in {} bytes, from where on no other connectivity can win\n",
+                 m.method, *m.lossless_bytes);
 }
 
 void print_definitions(std::ostream& out, const std::string& first, bool fixed) {
@@ -77,7 +81,9 @@ void print_definitions(std::ostream& out, const std::string& first, bool fixed) 
       "gain: PSNR of {} less that of the row's method, mean over log-bytes from {:.0f} bytes up to where the first\n"
       "of the two curves is within {:.0f} dB of its own ceiling. ratio: the row's bytes over those of {} at {:.0f} "
       "dB. Neither is said where the curves have nothing of it in common.\n"
-      "Curves are linear in log-bytes between their points; decimate-draco is the upper envelope of its points.\n"
+      "Curves are linear in log-bytes between their points. decimate-draco: decimated by quadrics, then Draco; "
+      "lindstrom-turk-draco:\n"
+      "by the collapses that keep the volume, then Draco. Without loss: coordinates in single precision.\n"
       "BD-rate, BD-PSNR: mean bytes of {} at equal PSNR less the other's, and mean PSNR at equal bytes, by PCHIP on "
       "the\n"
       "logarithm of bytes, where both curves are known and under their ceilings less {:.0f} dB; shared: of the range "
@@ -105,9 +111,12 @@ double ceiling_db(const std::vector<CurvePoint>& points) {
   return points.empty() || !(points.front().remesh_error > 0.0) ? 0.0 : -20.0 * std::log10(points.front().remesh_error);
 }
 
+bool on_a_curve(const CurvePoint& point) { return std::isfinite(point.psnr_db) && point.coder != kDracoLossless; }
+
 RateCurve envelope_of(const std::vector<CurvePoint>& points) {
   RateCurve curve;
-  for (const CurvePoint& point : points) curve.push_back({static_cast<double>(point.bytes), point.psnr_db});
+  for (const CurvePoint& point : points)
+    if (on_a_curve(point)) curve.push_back({static_cast<double>(point.bytes), point.psnr_db});
   return upper_envelope(std::move(curve));
 }
 
@@ -149,6 +158,8 @@ CurveSummary summarize(const std::string& model, const std::vector<CurveSeries>&
     m.level = points.front().level;
     m.positions = further_option(points.front().options, "positions");
     if (m.base_vertices > 0) m.coder = points.front().coder;
+    for (const CurvePoint& point : points)
+      if (point.coder == kDracoLossless) m.lossless_bytes = point.bytes;
     for (double level : kTableLevelsDb) m.bytes_at.push_back(bytes_at(curve, level));
     if (summary.methods.size() == 1) {
       first = curve;

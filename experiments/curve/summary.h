@@ -37,7 +37,8 @@ struct MethodSummary {
   /// empty for the first itself, and with the reason in `no_bd` where the curves cannot be compared.
   std::optional<BdResult> bd;
   std::string no_bd;
-  std::optional<double> bytes_ratio;  ///< this method's bytes over the first's, at kRatioLevelDb
+  std::optional<double> bytes_ratio;          ///< this method's bytes over the first's, at kRatioLevelDb
+  std::optional<std::size_t> lossless_bytes;  ///< at which it codes the input without loss, where it has such a row
 };
 
 struct CurveSummary {
@@ -47,7 +48,10 @@ struct CurveSummary {
   std::vector<MethodSummary> methods;  ///< in the order of the points; the first is compared with the others
 };
 
-/// The curve that points make: their upper envelope.
+/// False for a surface that is met exactly, whose PSNR is infinite, and for the row of `kDracoLossless`.
+bool on_a_curve(const CurvePoint& point);
+
+/// The curve that points make: the upper envelope of those on a curve.
 RateCurve envelope_of(const std::vector<CurvePoint>& points);
 
 /// PSNR of the uncoded remesh; 0 for anchors, which have none.

@@ -123,7 +123,7 @@ std::string gnuplot_comment(const std::string& text) {
 }
 
 std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  if (text.find_first_of(",\"\n\r") == std::string::npos && !text.starts_with("#")) return text;
   return '"' + replaced(text, "\"", [](char) { return "\"\""; }) + '"';
 }
 

@@ -22,7 +22,8 @@ std::string gnuplot_field(const std::string& text);
 /// A text behind # in a gnuplot program: neither a line break nor a backslash, which would join the next line to it.
 std::string gnuplot_comment(const std::string& text);
 
-/// A field of a CSV line (RFC 4180): in quotes where it holds a comma, a quote or a line break, with all its bytes.
+/// A field of a CSV line (RFC 4180): in quotes where it holds a comma, a quote or a line break or begins
+/// with #, which some readers take for a comment; with all its bytes.
 std::string csv_field(const std::string& text);
 
 /// A text between tags or in an attribute's double quotes of XML and HTML; `printable`.

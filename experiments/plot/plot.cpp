@@ -24,6 +24,7 @@ constexpr Style kStyles[] = {{"gsp", "#c8102e"},
                              {"maps-smoothed", "#1f5fa8"},
                              {"maps", "#7fb2e5"},
                              {"decimate-draco", "#2b2b2b"},
+                             {"lindstrom-turk-draco", "#8a6d3b"},
                              {"draco", "#9a9a9a"}};
 // Of other names, such as those of settings, in turn.
 constexpr const char* kFurther[] = {"#6a3d9a", "#1b7f5c", "#c77a00", "#00829b", "#a6408c",

@@ -113,7 +113,7 @@ class Report {
     Json points = Json::array();
     std::string positions;
     for (const CurvePoint& p : cell.points()) {
-      points.push_back(measured_json(p));
+      if (on_a_curve(p)) points.push_back(measured_json(p));
       positions = further_option(p.options, "positions");
     }
     Json bytes_at = Json::array();

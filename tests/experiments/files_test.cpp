@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -94,14 +95,32 @@ TEST_CASE("budgets hold the header, stay under the stream and end with the whole
   CHECK(byte_budgets({}, 50, 100) == std::vector<std::size_t>{100});
 }
 
-TEST_CASE("decimation sizes descend from half the faces by even ratios") {
-  const std::vector<int> sizes = decimation_sizes(97000);
-  REQUIRE(sizes.size() > 12);
-  CHECK(sizes.front() == 48500);
-  CHECK(sizes.back() >= 64);
-  CHECK(sizes.back() < 100);
+TEST_CASE("an infinite PSNR survives curve.csv and is no point of a curve, nor is the lossless row") {
+  const TemporaryFolder folder;
+  const double infinite = std::numeric_limits<double>::infinity();
+  std::vector<CurvePoint> points = {sample_point("cube", "draco", 100, 60.0),
+                                    sample_point("cube", "draco", 200, infinite),
+                                    sample_point("cube", "draco", 300, 150.0)};
+  points[2].coder = kDracoLossless;
+  write_curve_csv(folder.file("curve.csv"), points);
+  const std::vector<CurvePoint> read = read_curve_csv(folder.file("curve.csv"));
+  REQUIRE(read.size() == 3);
+  CHECK(read[1].psnr_db == infinite);
+  CHECK(envelope_of(read).size() == 1);
+  const CurveSummary summary = summarize("cube", {{"draco", read}});
+  CHECK(summary.methods.at(0).lossless_bytes == 300);
+}
+
+TEST_CASE("decimation sizes fall from the surface itself") {
+  const std::vector<int> sizes = decimation_sizes(96000);
+  CHECK(sizes.front() == 96000);
+  CHECK(sizes[3] == 48000);
+  CHECK(sizes[7] == 19049);  // the first under 20,000, from where on they are twice as dense
+  CHECK(sizes[13] == 9524);
+  CHECK(sizes.back() >= 20);
+  CHECK(sizes.back() < 23);
   for (std::size_t i = 1; i < sizes.size(); ++i) CHECK(sizes[i] < sizes[i - 1]);
-  CHECK(decimation_sizes(100).empty());
+  CHECK(decimation_sizes(12) == std::vector<int>{12});
 }
 
 TEST_CASE("a plot draws strange names, and names the files it made") {

@@ -31,6 +31,19 @@ TEST_CASE("the upper envelope keeps what no smaller point reaches") {
   CHECK(upper_envelope({}).empty());
 }
 
+TEST_CASE("dips go, the large shape stays") {
+  // 300 lies under the chord of its neighbours, 0.3 octaves apart; with it gone, 280 lies over what is left.
+  const RateCurve dip = {{270, 50.0}, {280, 50.6}, {300, 50.7}, {320, 52.0}};
+  const RateCurve filled = without_dips(dip, 0.3);
+  REQUIRE(filled.size() == 3);
+  CHECK(filled[1].bytes == 280);
+  // A long hollow is the curve itself.
+  const RateCurve hollow = {{100, 40.0}, {200, 41.0}, {400, 44.0}, {800, 50.0}};
+  CHECK(without_dips(hollow, 0.3).size() == 4);
+  CHECK(without_dips(hollow, 2.0).size() < 4);
+  CHECK(without_dips({}, 0.3).empty());
+}
+
 TEST_CASE("a curve is linear in log-bytes and says nothing outside its points") {
   const RateCurve curve = {{100, 40.0}, {400, 50.0}};
   CHECK(*psnr_at(curve, 100) == Approx(40.0));

@@ -1,7 +1,8 @@
 // The rate-distortion chart of one model, drawn as SVG.
 const Chart = (() => {
   const margin = { left: 48, right: 12, top: 10, bottom: 40 };
-  const known = { gsp: '#c8102e', 'maps-smoothed': '#1f5fa8', maps: '#7fb2e5', 'decimate-draco': '#2b2b2b', draco: '#9a9a9a' };
+  const known = { gsp: '#c8102e', 'maps-smoothed': '#1f5fa8', maps: '#7fb2e5', 'decimate-draco': '#2b2b2b', 'lindstrom-turk-draco': '#8a6d3b',
+    draco: '#9a9a9a' };
   const further = ['#6a3d9a', '#1b7f5c', '#c77a00', '#00829b', '#a6408c', '#5d7a00', '#7a5230', '#3b4cc0', '#d1495b', '#66a182'];
 
   // As method_colors (plot.cpp) does it, so that the page and its figures agree.
