@@ -28,7 +28,8 @@ enum class Decimation {
   /// (Garland, Heckbert 1997); boundary edges hold planes across the surface.
   Quadrics,
   /// The volume between the surfaces before and after a collapse, which the vertex keeps at zero as a whole (Lindstrom,
-  /// Turk 1998). Vertices lie on both sides of the input, where those of quadrics lie outside of what is round.
+  /// Turk 1998). The surface lies on both sides of the input, where that of quadrics has less than the volume of a
+  /// ball.
   Volume,
 };
 

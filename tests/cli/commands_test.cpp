@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli.h"
+#include "experiments/cells/cell_options.h"
 #include "mesh/io.h"
 #include "mesh/read_file.h"
 #include "mesh/shapes.h"
@@ -275,7 +276,7 @@ TEST_CASE("curve draws what works, names what fails, and ends with status 1 for 
   CHECK(report["models"][0]["error"]["cause"].is_string());
   CHECK_FALSE(report["models"][1].contains("error"));
   CHECK(report["models"][1]["methods"][0]["method"] == "gsp");
-  CHECK(report["models"][1]["methods"].size() == 2 * 2 + 2);
+  CHECK(report["models"][1]["methods"].size() == 2 * 2 + anchor_words().size());
   CHECK(report["models"][1]["methods"][1]["method"] == "gsp mode=fixed");
   CHECK(report["models"][1]["methods"][1]["coder"] == "gsp-fixed");
   for (const char* name : {"curve.csv", "bumpy.png", "bumpy.svg", "bumpy-omega.csv"})
