@@ -13,7 +13,6 @@
 #include "experiments/curve/summary.h"
 #include "experiments/output/quoting.h"
 #include "experiments/report/page.h"
-#include "experiments/report/paper.h"
 #include "experiments/report/run_figures.h"
 #include "experiments/report/view_data.h"
 #include "experiments/store/json_file.h"
@@ -130,7 +129,7 @@ class Report {
             {"level", optional(cell.number("level"))},
             {"positions", positions.empty() ? Json() : Json(positions)},
             {"remesh_error", optional(cell.number("remesh_error"))},
-            {"paper_error", anchor ? Json() : optional(paper_remesh_error(cell.model))},
+            {"paper_error", anchor ? Json() : optional(run_.paper_error(cell.model))},
             {"bytes_at", bytes_at},
             {"bd_rate", comparison ? optional(comparison->bd_rate) : Json()},
             {"bd_note", comparison ? comparison->note : ""},

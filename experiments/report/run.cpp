@@ -9,6 +9,7 @@
 #include "experiments/cells/cell_options.h"
 #include "experiments/curve/curve_csv.h"
 #include "experiments/output/quoting.h"
+#include "experiments/report/paper.h"
 
 namespace gsp {
 
@@ -112,6 +113,11 @@ const StoredModel* Run::model(const std::string& wanted) const {
   return found == models.end() ? nullptr : &*found;
 }
 
+std::optional<double> Run::paper_error(const std::string& wanted) const {
+  const auto found = paper_errors.find(wanted);
+  return found == paper_errors.end() ? std::nullopt : std::optional(found->second);
+}
+
 std::vector<std::string> Run::labels() const {
   std::vector<std::string> labels;
   for (const StoredCell& cell : cells)
@@ -138,6 +144,8 @@ Run read_run(const std::string& folder, const std::string& recipe) {
     run.models = store.models(recipe);
     run.cells = store.cells(recipe);
     relabel(run.cells);
+    for (const StoredModel& model : run.models)
+      if (const auto error = paper_remesh_error(model)) run.paper_errors[model.name] = *error;
     return run;
   }
   if (!fs::exists(fs::path(folder) / "curve.csv"))

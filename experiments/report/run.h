@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,9 +15,12 @@ struct Run {
   std::string name;  ///< of the recipe, or of the folder
   std::vector<StoredModel> models;
   std::vector<StoredCell> cells;
+  std::map<std::string, double> paper_errors;  ///< remeshing errors of the paper's Table 1, by names of its models
 
   /// Null where no model has the name.
   const StoredModel* model(const std::string& name) const;
+  /// The paper's remeshing error for a model; empty for what is none of its models.
+  std::optional<double> paper_error(const std::string& model) const;
   /// Labels of the cells in the order of their first ones.
   std::vector<std::string> labels() const;
   /// The curves of a model's cells that are done, by their labels.

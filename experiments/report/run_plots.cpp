@@ -11,7 +11,6 @@
 #include "experiments/plot/gnuplot.h"
 #include "experiments/plot/plot.h"
 #include "experiments/report/cost.h"
-#include "experiments/report/paper.h"
 
 namespace gsp {
 
@@ -246,7 +245,7 @@ void error_figure(const Run& run, const std::string& folder, std::vector<RunFigu
       });
       rows += ' ' + value_or_missing(cell == run.cells.end() ? std::nullopt : cell->number("remesh_error"), 1e5);
     }
-    const auto published = paper_remesh_error(model.name);
+    const auto published = run.paper_error(model.name);
     paper = paper || published;
     rows += ' ' + value_or_missing(published, 1e5) + '\n';
   }

@@ -1,5 +1,6 @@
 #include "experiments/report/report.h"
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
@@ -10,8 +11,11 @@
 #include "experiments/report/cost.h"
 #include "experiments/report/page.h"
 #include "experiments/report/paper.h"
+#include "mesh/io.h"
+#include "mesh/shapes.h"
 #include "metrics/distortion.h"
 #include "temporary_folder.h"
+#include "test_meshes.h"
 
 using namespace gsp;
 
@@ -205,9 +209,38 @@ TEST_CASE("the stages of the cost are found where they were put") {
   CHECK_THROWS_AS(read_omega_csv(folder.file("omega.csv")), Error);
 }
 
-TEST_CASE("the paper's models are known by their names") {
-  CHECK(*paper_remesh_error("Horse_48485") == Approx(5.16e-5));
-  CHECK_FALSE(paper_remesh_error("torus"));
+TEST_CASE("the spread of a surface is that of its shape") {
+  // A sphere's: r² over 4 π r². A unit square's about its middle: 1/6.
+  CHECK(*relative_spread(shapes::sphere(5)) == Approx(1.0 / (4.0 * 3.14159265)).epsilon(1e-3));
+  Mesh square = shapes::grid(4, 4, 1.0);
+  CHECK(*relative_spread(square) == Approx(1.0 / 6.0));
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, 3.0).normalized()).matrix();
+  for (Vec3& p : square.positions) p = 7.0 * (turn * p) + Vec3(10.0, -3.0, 5.0);
+  CHECK(*relative_spread(square) == Approx(1.0 / 6.0));
+  CHECK_FALSE(relative_spread(Mesh{}));
+}
+
+TEST_CASE("the paper's numbers stand beside its own models, whatever they are called") {
+  StoredModel unread;
+  unread.name = "horse", unread.vertices = 48485, unread.faces = 96966;
+  CHECK_FALSE(paper_remesh_error(unread));
+  // As many vertices and faces as the horse has, and another shape.
+  Mesh square = shapes::grid(4, 4, 1.0);
+  square.positions.resize(48485, Vec3::Zero());
+  while (square.face_count() < 96966) square.faces.push_back(square.faces[square.face_count() % 32]);
+  CHECK_FALSE(paper_remesh_error(square));
+  if (const std::string folder = shared_meshes(); !folder.empty()) {
+    Mesh horse = read_mesh(folder + "/paper/horse_48485.ply");
+    CHECK(*paper_remesh_error(horse) == Approx(5.16e-5));
+    CHECK(*paper_remesh_error(read_mesh(folder + "/paper/horse_48485_gatech_bigendian.ply")) == Approx(5.16e-5));
+    CHECK(*paper_remesh_error(read_mesh(folder + "/paper/bunny_34835_69473.ply")) == Approx(4.22e-5));
+    CHECK(*paper_remesh_error(read_mesh(folder + "/paper/venus_50002.ply")) == Approx(3.55e-5));
+    CHECK(*paper_remesh_error(read_mesh(folder + "/paper/feline_49864.ply")) == Approx(3.54e-5));
+    for (Vec3& p : horse.positions) p.x() *= 1.01;
+    CHECK_FALSE(paper_remesh_error(horse));
+  }
+  if (const std::string folder = sample_meshes(); !folder.empty())
+    CHECK_FALSE(paper_remesh_error(read_mesh(folder + "/bunny00.off")));
 }
 
 TEST_CASE("sector discs are valid maps that keep the disc's symmetry") {
