@@ -8,6 +8,7 @@
 #include "coder/coding_sides.h"
 #include "coder/context_values.h"
 #include "coder/due_list.h"
+#include "coder/largest_descendants.h"
 #include "coder/payload_check.h"
 
 namespace gsp {
@@ -41,7 +42,8 @@ class BitplaneCoder {
       bit_due_.emplace_back(nodes);
       tree_due_.emplace_back(nodes);
     }
-    if (actual) find_largest_descendants();
+    if (layout.scalar) silence_tangential();
+    if (actual) largest_ = largest_descendants(forest, *actual);
   }
 
   void run() {
@@ -71,17 +73,6 @@ class BitplaneCoder {
   using Due = DueList::Pass;
   static constexpr Due kNever = DueList::kNever;
   static_assert(kMaxUrgency > kNever && kPassesPerPlane * 31 + kMaxUrgency < 256);
-
-  /// What is known of one component, by node.
-  struct Lane {
-    std::uint32_t* magnitude;
-    std::uint8_t* negative;
-    std::uint8_t* low_plane;
-    std::uint32_t* ring;           ///< sums of magnitudes beside each; at kNone a 0
-    std::uint32_t* children;       ///< sums of the children's magnitudes
-    std::uint8_t* tree_low_plane;  ///< at and above it, a closed tree is known to be empty
-    const std::int8_t* urgency;
-  };
 
   /// Where the coder is, and all that decisions there are made of: copied, so that it can stay in registers, where a
   /// store of a byte cannot be taken to change it.
@@ -118,17 +109,17 @@ class BitplaneCoder {
             &tree_due_[c]};
   }
 
-  static int bit_of(int flags, int c) { return flags >> c & 1; }
+  /// Nodes without a component are known down to the last plane, as all that is below them is.
+  bool is_silent(int n, int c) const { return layout_.scalar && c != 0 && !forest_.on_boundary(n); }
 
-  void find_largest_descendants() {
-    largest_.assign(forest_.nodes(), {0, 0, 0});
-    for (int n = forest_.nodes() - 1; n >= 0; --n) {
-      const int parent = forest_.parent[n];
-      if (parent < 0) continue;
-      for (int c = 0; c < 3; ++c)
-        largest_[parent][c] = std::max({largest_[parent][c], largest_[n][c], actual_->details[c].magnitude[n]});
+  void silence_tangential() {
+    for (int n = 0; n < forest_.nodes(); ++n) {
+      if (forest_.on_boundary(n)) continue;
+      for (int c = 1; c < 3; ++c) known_.details[c].low_plane[n] = tree_low_plane_[c][n] = 0;
     }
   }
+
+  static int bit_of(int flags, int c) { return flags >> c & 1; }
 
   double base_midpoint(int v, int k) const {
     return known_.base[v][k] + 0.5 * static_cast<double>(1u << known_.base_low_plane[v][k]);
@@ -255,7 +246,7 @@ class BitplaneCoder {
   }
 
   void open(Scene at, int n) {
-    if (at.level + 1 >= layout_.levels || at.is_open(n)) return;
+    if (at.level + 1 >= layout_.levels || at.is_open(n) || is_silent(n, at.c)) return;
     // What follows would speak of a level below the forest.
     if (at.level + 1 == forest_.levels()) throw StreamEnd{};
     at.open[n] |= 1 << at.c;
@@ -263,7 +254,7 @@ class BitplaneCoder {
     const std::uint8_t empty_from = at.lane.tree_low_plane[n];
     ++at.level;
     for (int child : at.children[n]) {
-      if (child < 0) continue;
+      if (child < 0 || is_silent(child, at.c)) continue;
       if (!urgency_is_new_[child]) find_urgency(child);
       at.lane.low_plane[child] = at.lane.tree_low_plane[child] = empty_from;
       if (at.is_near(child)) open(at, child);
@@ -349,7 +340,7 @@ class BitplaneCoder {
   std::vector<std::uint8_t> near_;       ///< bit c: an edge beside it is significant
   std::vector<std::uint8_t> open_;       ///< bit c: its descendants are coded one by one
   std::vector<DueList> bit_due_, tree_due_;
-  std::vector<std::array<std::uint32_t, 3>> largest_;  ///< encoder only: largest magnitudes of all descendants
+  std::vector<std::array<std::uint32_t, 3>> largest_;  ///< encoder only: largest_descendants.h
   PayloadCheck check_;
   NodeUrgency node_urgency_;  ///< since the last renewal
   std::array<std::vector<std::int8_t>, 3> urgency_;

@@ -72,6 +72,20 @@ int finest_significant_level(const BitplaneCoefficients& known, const EdgeForest
   return level;
 }
 
+/// Normal where no detail but those of boundary edges has a tangential component, to the stream's precision.
+StreamKind kind_of(const EdgeForest& forest, const BitplaneCoefficients& integers) {
+  for (int n = 0; n < forest.nodes(); ++n)
+    if (!forest.on_boundary(n) && (integers.details[1].magnitude[n] | integers.details[2].magnitude[n]) != 0)
+      return StreamKind::Parametric;
+  return StreamKind::Normal;
+}
+
+/// Of all details but those of boundary edges.
+void drop_tangential(const EdgeForest& forest, BitplaneCoefficients& integers) {
+  for (int n = 0; n < forest.nodes(); ++n)
+    if (!forest.on_boundary(n)) integers.details[1].magnitude[n] = integers.details[2].magnitude[n] = 0;
+}
+
 /// The levels whose edges carry details of a mesh of `level`.
 std::vector<SubdivisionLevel> detail_levels(const StreamHeader& header, int level) {
   if (level == 0) return {};
@@ -112,6 +126,7 @@ struct Structure {
     layout.base_planes = header.base_planes;
     layout.detail_planes = header.detail_planes;
     layout.levels = header.level;
+    layout.scalar = header.kind == StreamKind::Normal;
     layout.base_neighbours.resize(header.base.vertices);
     for (const auto& [a, b] : base_level(header.base.vertices, header.base.faces).edges) {
       layout.base_neighbours[a].push_back(b);
@@ -168,7 +183,16 @@ struct Source {
       const EdgeFrames frames(structure.levels[l], seen[l]);
       for (std::size_t e = 0; e < local[l].size(); ++e) local[l][e] = frames(e).transpose() * local[l][e];
     }
-    return quantize(positions[0], local, diagonal, precision_bits(), result);
+    BitplaneCoefficients integers = quantize(positions[0], local, diagonal, precision_bits(), result);
+    // Other frames turn a scalar detail. What it moves along the surface is nothing that the stream has a place for.
+    if (result.kind == StreamKind::Normal) drop_tangential(structure.forest, integers);
+    return integers;
+  }
+  /// The same in this mesh's own frames, and of what kind they are.
+  BitplaneCoefficients quantized_as_it_is(StreamHeader& result) const {
+    BitplaneCoefficients integers = quantized(positions, result);
+    result.kind = kind_of(structure.forest, integers);
+    return integers;
   }
 
   BitplaneLayout layout(const StreamHeader& result) const {
@@ -220,7 +244,7 @@ Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress
   const Source source(mesh, options, progress);
   progress.report("entropy coding", 0.8);
   StreamHeader header = source.header;
-  const BitplaneCoefficients integers = source.quantized(source.positions, header);
+  const BitplaneCoefficients integers = source.quantized_as_it_is(header);
   Bytes bytes = write_header(header, source.connectivity);
   const std::size_t header_size = bytes.size();
   const BitplaneParts bits = encode_bitplanes(source.structure.forest, source.layout(header), integers, bytes);
@@ -234,7 +258,7 @@ Bytes encode_fixed(const SemiregularMesh& mesh, const EncodeOptions& options, st
   const SurfaceError error(in_coded_order(mesh, source.header.base).mesh());
   const EdgeForest& forest = source.structure.forest;
   StreamHeader header = source.header;
-  BitplaneCoefficients integers = source.quantized(source.positions, header);
+  BitplaneCoefficients integers = source.quantized_as_it_is(header);
   const std::size_t header_size = write_header(header, source.connectivity).size();
   if (bytes < header_size)
     throw Error(Cause::BadOption, "the header alone takes " + std::to_string(header_size) + " bytes");

@@ -43,6 +43,9 @@ struct StreamParts {
 /// Codes a semi-regular mesh as an embedded stream: a checksummed header with the base connectivity, then bit-planes,
 /// most significant first. Any prefix that holds the header decodes (design.md, `*.pgc`).
 ///
+/// A mesh whose details, but for those of boundary edges, have no tangential part to the stream's precision, becomes a
+/// scalar stream: tangential components take no bits then.
+///
 /// A decoder numbers base vertices and faces, and with them all finer vertices, in the order in which they were coded;
 /// `coded_vertex_order` (coder/coded_order.h) says which vertex became which.
 /// `parts`, where given, receives the sizes. Throws Error: BadOption, NoFaces, NonFinite, Malformed (a base vertex

@@ -8,6 +8,17 @@ namespace gsp {
 
 // What contexts of the bit-plane coder are made of.
 
+/// What is known of one component, by node.
+struct Lane {
+  std::uint32_t* magnitude;
+  std::uint8_t* negative;
+  std::uint8_t* low_plane;
+  std::uint32_t* ring;           ///< sums of magnitudes beside each; at kNone a 0
+  std::uint32_t* children;       ///< sums of the children's magnitudes
+  std::uint8_t* tree_low_plane;  ///< at and above it, a closed tree is known to be empty
+  const std::int8_t* urgency;
+};
+
 /// std::bit_width for x < 2^63, which needs no branch for 0.
 inline int bit_width(std::uint64_t x) { return 63 - std::countl_zero(2 * x + 1); }
 

@@ -21,6 +21,7 @@ struct EdgeForest {
   /// `levels`: those whose edges carry details.
   explicit EdgeForest(const std::vector<SubdivisionLevel>& levels);
 
+  bool on_boundary(int node) const { return neighbours[node][2] == kNone; }
   int levels() const { return static_cast<int>(level_begin.size()) - 1; }
   int nodes() const { return static_cast<int>(parent.size()); }
 };

@@ -10,18 +10,22 @@ namespace gsp {
 
 namespace {
 
-constexpr std::array<std::uint8_t, 4> kMagic = {'P', 'G', 'C', 6};
-constexpr std::size_t kChecksumEnd = kMagic.size() + 4;
+constexpr std::array<std::uint8_t, 3> kMagic = {'P', 'G', 'C'};
+constexpr std::size_t kChecksumBegin = kMagic.size() + 1, kChecksumEnd = kChecksumBegin + 4;
+constexpr std::uint8_t kOldestVersion = 6;
 
 [[noreturn]] void refuse(const std::string& why) { throw Error(Cause::BadStream, "not a usable coded mesh: " + why); }
 
-/// CRC-32 of IEEE 802.3, bit by bit: headers are short.
-std::uint32_t crc32(const std::uint8_t* begin, const std::uint8_t* end) {
+/// CRC-32 of IEEE 802.3, bit by bit, of the header from its size on: headers are short. From version 7 on the version
+/// comes before it, since any other that is read would be taken for this one.
+std::uint32_t checksum(const std::uint8_t* begin, const std::uint8_t* end) {
   std::uint32_t crc = ~0u;
-  for (; begin != end; ++begin) {
-    crc ^= *begin;
+  const auto add = [&](std::uint8_t byte) {
+    crc ^= byte;
     for (int b = 0; b < 8; ++b) crc = (crc >> 1) ^ (crc & 1 ? 0xedb88320u : 0u);
-  }
+  };
+  if (const std::uint8_t version = begin[kMagic.size()]; version > kOldestVersion) add(version);
+  std::for_each(begin + kChecksumEnd, end, add);
   return ~crc;
 }
 
@@ -73,7 +77,11 @@ class Parser {
 /// Past the magic and the checksum: the size of the rest.
 std::uint64_t size_of_rest(Parser& parser) {
   for (std::uint8_t expected : kMagic)
-    if (parser.byte() != expected) refuse("it does not start with 'PGC' and version 6");
+    if (parser.byte() != expected) refuse("it does not start with 'PGC'");
+  const int version = parser.byte();
+  if (version < kOldestVersion || version > kStreamVersion)
+    refuse("its version is " + std::to_string(version) + ", not " + std::to_string(kOldestVersion) + " or " +
+           std::to_string(kStreamVersion));
   for (int b = 0; b < 4; ++b) parser.byte();
   const std::uint64_t size = parser.varint();
   if (size > static_cast<std::uint64_t>(kMaxDecodedFaces)) refuse("the header is too large");
@@ -86,7 +94,8 @@ Bytes write_header(const StreamHeader& header, const Bytes& connectivity) {
   Bytes rest;
   int ratio_exponent = 0;
   while (1 << ratio_exponent < header.tangential_ratio) ++ratio_exponent;
-  rest.push_back(static_cast<std::uint8_t>(static_cast<int>(header.wavelet) | ratio_exponent << 4));
+  rest.push_back(static_cast<std::uint8_t>(static_cast<int>(header.wavelet) | ratio_exponent << 4 |
+                                           static_cast<int>(header.kind) << 6));
   rest.push_back(static_cast<std::uint8_t>(header.level));
   rest.push_back(static_cast<std::uint8_t>(header.base_planes));
   rest.push_back(static_cast<std::uint8_t>(header.detail_planes));
@@ -100,6 +109,7 @@ Bytes write_header(const StreamHeader& header, const Bytes& connectivity) {
   sized.insert(sized.end(), rest.begin(), rest.end());
   Bytes bytes(kChecksumEnd + sized.size());
   std::copy(kMagic.begin(), kMagic.end(), bytes.begin());
+  bytes[kMagic.size()] = kStreamVersion;
   std::copy(sized.begin(), sized.end(), bytes.begin() + kChecksumEnd);
   seal_header(bytes);
   return bytes;
@@ -108,8 +118,8 @@ Bytes write_header(const StreamHeader& header, const Bytes& connectivity) {
 void seal_header(Bytes& stream) {
   const std::size_t size = header_size(stream.data(), stream.data() + stream.size());
   if (size > stream.size()) refuse("the header ends early");
-  const std::uint32_t crc = crc32(stream.data() + kChecksumEnd, stream.data() + size);
-  for (int b = 0; b < 4; ++b) stream[kMagic.size() + b] = static_cast<std::uint8_t>(crc >> (8 * b));
+  const std::uint32_t crc = checksum(stream.data(), stream.data() + size);
+  for (int b = 0; b < 4; ++b) stream[kChecksumBegin + b] = static_cast<std::uint8_t>(crc >> (8 * b));
 }
 
 std::size_t header_size(const std::uint8_t* begin, const std::uint8_t* end) {
@@ -123,17 +133,18 @@ StreamHeader read_header(const std::uint8_t* begin, const std::uint8_t* end) {
   if (size > static_cast<std::size_t>(end - begin)) refuse("the header ends early");
   end = begin + size;
   std::uint32_t stored = 0;
-  for (int b = 0; b < 4; ++b) stored |= static_cast<std::uint32_t>(begin[kMagic.size() + b]) << (8 * b);
-  if (crc32(begin + kChecksumEnd, end) != stored) refuse("the header's checksum is wrong");
+  for (int b = 0; b < 4; ++b) stored |= static_cast<std::uint32_t>(begin[kChecksumBegin + b]) << (8 * b);
+  if (checksum(begin, end) != stored) refuse("the header's checksum is wrong");
 
   Parser parser(begin, end);
   size_of_rest(parser);
   StreamHeader header;
-  const int kinds = parser.byte();
-  if ((kinds & 15) >= static_cast<int>(std::size(kWavelets))) refuse("its wavelet is unknown");
-  header.wavelet = static_cast<Wavelet>(kinds & 15);
-  if (kinds >> 4 > 3) refuse("its tangential ratio is out of range");
-  header.tangential_ratio = 1 << (kinds >> 4);
+  const int transform = parser.byte();
+  if ((transform & 15) >= static_cast<int>(std::size(kWavelets))) refuse("its wavelet is unknown");
+  header.wavelet = static_cast<Wavelet>(transform & 15);
+  header.tangential_ratio = 1 << (transform >> 4 & 3);
+  if (transform >> 6 >= kStreamKinds) refuse("its kind is unknown");
+  header.kind = static_cast<StreamKind>(transform >> 6);
   header.level = parser.byte_within(kMaxSubdivisionLevel);
   header.base_planes = parser.byte_within(31);
   header.detail_planes = parser.byte_within(31);

@@ -10,14 +10,25 @@
 
 namespace gsp {
 
+/// How many numbers of a vertex above the base a stream holds. Values, at most 3, are those on disk.
+enum class StreamKind : std::uint8_t {
+  Parametric = 0,  ///< three
+  Normal = 1,      ///< one, along the normal of its edge's frame; three on the boundary
+};
+inline constexpr int kStreamKinds = 2;
+
+/// The version that is written. Those of the one before, all parametric, are read in the same way.
+inline constexpr std::uint8_t kStreamVersion = 7;
+
 /// Everything that a decoder needs before the first bit-plane. On disk (`*.pgc`):
 ///
-///     "PGC"  version  CRC-32 of the rest (little endian)  varint size of the rest
-///     rest: wavelet | log2(tangential ratio) << 4, level, base planes, detail planes (one byte each);
+///     "PGC"  version  CRC-32 of version and rest (little endian)  varint size of the rest
+///     rest: wavelet | log2(tangential ratio) << 4 | kind << 6, level, base planes, detail planes (one byte each);
 ///           varints: base faces, zigzag step exponent, zigzag origin x, y, z; base connectivity
 ///
 /// A varint holds 7 bits a byte, least significant first, at most 9 bytes.
 struct StreamHeader {
+  StreamKind kind = StreamKind::Parametric;
   Wavelet wavelet = Wavelet::Loop;
   int tangential_ratio = 4;
   int level = 0;

@@ -7,10 +7,10 @@
 
 #include "coder/base_connectivity.h"
 #include "coder/coded_order.h"
+#include "coder/header.h"
 #include "coder/rate_distortion.h"
-#include "remesh/filters/local_frames.h"
 #include "tests/cause_of.h"
-#include "tests/coder/sample_meshes.h"
+#include "tests/coder/scalar_meshes.h"
 
 using namespace gsp;
 
@@ -112,19 +112,8 @@ TEST_CASE("the parts of a stream add up to it") {
   CHECK(bits / 8.0 == Approx(stream.size() - header_bytes(stream)).epsilon(0.005));
 }
 
-TEST_CASE("tangential components of a normal mesh cost less than a hundredth of its stream") {
-  Random random(3);
-  SemiregularMesh mesh = samples::refine(shapes::icosahedron(), 0, [](const Vec3& p) { return p; });
-  mesh.level = 5;
-  const WaveletTransform transform(subdivision_levels(mesh.base_vertices, mesh.base_faces, mesh.level - 1),
-                                   Wavelet::Butterfly);
-  for (int l = 0; l < mesh.level; ++l) {
-    std::vector<Vec3> details;
-    const EdgeFrames frames(transform.levels()[l], mesh.positions);
-    for (int e = 0; e < transform.levels()[l].edge_count(); ++e)
-      details.push_back(frames(e).col(0) * ((random.uniform() - 0.5) * std::ldexp(0.2, -2 * l)));
-    mesh.positions = transform.synthesis(l, std::move(mesh.positions), details);
-  }
+TEST_CASE("tangential components of a normal mesh cost nothing, and those of an exception next to nothing else") {
+  SemiregularMesh mesh = samples::scalar(shapes::icosahedron(), 5, 0.2);
   EncodeOptions options;
   options.wavelet = Wavelet::Butterfly;
   StreamParts parts;
@@ -134,7 +123,47 @@ TEST_CASE("tangential components of a normal mesh cost less than a hundredth of 
     return part.trees + part.significance + part.signs + part.refinement;
   };
   CHECK(bits(0) > 0.9 * 8.0 * stream.size());
+  CHECK(bits(1) + bits(2) == 0.0);
+  CHECK(rms_error(mesh, decode(stream, stream.size())) < 1e-5);
+  // One vertex off its normal, and the stream has three components: they are found where they are.
+  mesh.positions[mesh.positions.size() / 2] += Vec3(0.01, 0.02, 0.03);
+  const Bytes excepted = encode(mesh, options, silent, &parts);
+  CHECK(bits(1) + bits(2) > 0.0);
   CHECK(bits(1) + bits(2) < 0.01 * bits(0));
+  CHECK(rms_error(mesh, decode(excepted, excepted.size())) < 1e-5);
+}
+
+TEST_CASE("a scalar stream keeps the three components of its boundary, in every mode, to every prefix") {
+  const SemiregularMesh mesh = samples::scalar(shapes::grid(3, 4), 3, 0.3);
+  EncodeOptions options;
+  options.wavelet = Wavelet::Butterfly;
+  options.precision_bits = 16;
+  const Bytes stream = encode(mesh, options, silent);
+  CHECK(read_header(stream.data(), stream.data() + stream.size()).kind == StreamKind::Normal);
+  CHECK(rms_error(mesh, decode(stream, stream.size())) < 2e-4);
+  const Bytes fixed = encode_fixed(mesh, options, 4 * stream.size(), silent);
+  CHECK(rms_error(mesh, decode(fixed, fixed.size())) < 2e-4);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t bytes = header_bytes(stream); bytes <= stream.size(); bytes += stream.size() / 8) {
+    const double error = rms_error(mesh, decode(stream, bytes));
+    CHECK(error < 1.2 * least);
+    least = std::min(least, error);
+  }
+}
+
+TEST_CASE("a stream of another version or an unknown kind is refused") {
+  const Bytes stream = encode(samples::bumpy_sphere(1), {}, silent);
+  for (int version : {0, 5, 6, 8, 255}) {
+    Bytes other = stream;
+    other[3] = static_cast<std::uint8_t>(version);
+    CHECK(cause_of([&] { decode(other, other.size()); }) == Cause::BadStream);
+  }
+  for (int kind : {2, 3}) {
+    Bytes other = stream;
+    other[9] |= static_cast<std::uint8_t>(kind << 6);
+    seal_header(other);
+    CHECK(cause_of([&] { decode(other, other.size()); }) == Cause::BadStream);
+  }
 }
 
 TEST_CASE("every prefix that holds the header decodes, and more bytes are better") {
