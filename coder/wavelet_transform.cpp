@@ -45,7 +45,7 @@ Scalars sum(std::size_t count, Term term) {
   return total;
 }
 
-Scalars dot(const Points& a, const Points& b) {
+Scalars coordinate_dots(const Points& a, const Points& b) {
   return sum(a.size(), [&](std::size_t i) -> Scalars { return a[i].array() * b[i].array(); });
 }
 
@@ -152,20 +152,20 @@ WaveletTransform::Split WaveletTransform::analysis(int level, const std::vector<
   const Points shadow = r;
   Points p(n, Vec3::Zero()), v(n, Vec3::Zero()), s(n);
   Scalars rho = Scalars::Ones(), alpha = Scalars::Ones(), omega = Scalars::Ones();
-  const Scalars target = dot(fine, fine) * (kTolerance * kTolerance);
+  const Scalars target = coordinate_dots(fine, fine) * (kTolerance * kTolerance);
   Split split;
-  while ((dot(r, r) > target).any()) {
+  while ((coordinate_dots(r, r) > target).any()) {
     if (++split.iterations > kMaxIterations)
       throw Error(Cause::SolverFailed, "wavelet analysis of level " + std::to_string(level) + " did not converge");
-    const Scalars next_rho = dot(shadow, r);
+    const Scalars next_rho = coordinate_dots(shadow, r);
     const Scalars beta = ratio(next_rho, rho) * ratio(alpha, omega);
     rho = next_rho;
     for_each(n, [&](std::size_t i) { p[i].array() = r[i].array() + beta * (p[i].array() - omega * v[i].array()); });
     v = synthesize(p);
-    alpha = ratio(rho, dot(shadow, v));
+    alpha = ratio(rho, coordinate_dots(shadow, v));
     for_each(n, [&](std::size_t i) { s[i].array() = r[i].array() - alpha * v[i].array(); });
     const Points t = synthesize(s);
-    omega = ratio(dot(t, s), dot(t, t));
+    omega = ratio(coordinate_dots(t, s), coordinate_dots(t, t));
     for_each(n, [&](std::size_t i) {
       x[i].array() += alpha * p[i].array() + omega * s[i].array();
       r[i].array() = s[i].array() - omega * t[i].array();
