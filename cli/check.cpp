@@ -87,7 +87,7 @@ void add_baseline(CLI::App& app, Context& context) {
   Command command(app, context, "baseline", "write down what a sweep measured, to hold later ones to it");
   auto options = std::make_shared<BaselineOptions>();
   command.argument("RUN", options->run, "folder of a sweep");
-  command.output("FILE", options->output, "the baseline, JSON; its tolerances may be edited");
+  command.output("FILE", options->output, Content::Json, "the baseline, JSON; its tolerances may be edited");
   command.optional_text("--recipe", "NAME", options->recipe, "of the recipes in the folder [the latest]");
   command.on_run([options, &context] { return run_baseline(*options, context); });
 }
@@ -96,9 +96,9 @@ void add_check(CLI::App& app, Context& context) {
   Command command(app, context, "check", "hold a sweep to a baseline; exit status 1 on a regression, rows named");
   auto options = std::make_shared<CheckArguments>();
   command.argument("RUN", options->run, "folder of a sweep");
-  command.required_option("--baseline", "FILE", options->baseline, "what gsp baseline wrote");
+  command.required_input("--baseline", options->baseline, "what gsp baseline wrote");
   command.optional_text("--recipe", "NAME", options->recipe, "of the recipes in the folder [the latest]");
-  command.optional_file("--junit", options->junit, "also write the result as JUnit XML");
+  command.optional_output("--junit", options->junit, Content::Xml, "also write the result as JUnit XML");
   command.flag("--ignore-times", options->ignore_times, "compare only what does not depend on the machine");
   command.on_run([options, &context] { return run_check(*options, context); });
 }

@@ -1,5 +1,6 @@
 #include "cli/console.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -24,6 +25,12 @@ constexpr int kRemarksShown = 10;
 }  // namespace
 
 void catch_interrupts() { std::signal(SIGINT, on_interrupt); }
+
+void hold_standard_streams() {
+  // `open` takes the lowest free number. Reading only, so that writing fails as it did when the stream was closed.
+  for (int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0 && ::open("/dev/null", O_RDONLY) < 0) return;
+}
 
 bool interrupted() { return interrupt_seen != 0; }
 

@@ -10,6 +10,9 @@ namespace gsp::cli {
 
 /// Makes the first Ctrl-C ask the running stage to stop, and the second end the program at once.
 void catch_interrupts();
+/// Keeps the places of standard input, output and error where one of them was closed, so that no file that is opened
+/// later comes to stand for it. What is written to an output that was closed fails.
+void hold_standard_streams();
 /// True once Ctrl-C was pressed.
 bool interrupted();
 

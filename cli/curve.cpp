@@ -44,6 +44,8 @@ int run_curve(CurveArguments& options, Context& context) {
     context.out << "files\n";
     for (const std::string& file : job.files) context.out << "  " << printable(file) << '\n';
   }
+  for (const CurveSummary& model : job.models)
+    if (!model.failure.empty()) context.console.error("gsp: " + model.model + ": " + model.failure);
   return job.failed() ? 1 : 0;
 }
 
@@ -53,7 +55,7 @@ void add_curve(CLI::App& app, Context& context) {
   Command command(app, context, "curve", "the main job: rate-distortion curves of surfaces");
   auto options = std::make_shared<CurveArguments>();
   command.arguments("MESH", options->meshes, "surfaces, or folders of them: PLY, OBJ, OFF, STL");
-  command.output("DIR", options->output, "folder for curve.csv and the figures");
+  command.output_folder("-o,--output", options->output, true, "folder for curve.csv and the figures");
   command.choices("--methods", options->methods, map_method_words(),
                   "maps to compare on the base vertices of one simplification");
   command.read_options(options->read);

@@ -45,7 +45,7 @@ void add_decode(CLI::App& app, Context& context) {
   Command command(app, context, "decode", "the mesh of a stream, or of a prefix of it");
   auto options = std::make_shared<DecodeArguments>();
   command.argument("STREAM", options->stream, "stream: *.pgc");
-  command.output("MESH", options->output, "the mesh, *.sr.ply");
+  command.output("MESH", options->output, Content::Ply, "the mesh, *.sr.ply");
   command.size("--bytes", options->bytes, 0, std::numeric_limits<std::size_t>::max(),
                "decode the first N bytes; 0 decodes all");
   command.on_run([options, &context] { return run_decode(*options, context); });

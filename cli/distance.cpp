@@ -5,6 +5,7 @@
 #include "cli/input.h"
 #include "cli/options.h"
 #include "cli/print.h"
+#include "experiments/output/decibels.h"
 #include "mesh/error.h"
 #include "metrics/hausdorff.h"
 #include "metrics/metro.h"
@@ -71,7 +72,10 @@ Json report_of(const DistanceBounds& bounds) {
 }
 
 Json report_of(const Psnr& psnr) {
-  return {{"name", psnr.name}, {"db", psnr.db}, {"peak", psnr.peak}, {"formula", psnr.formula}};
+  Json report = {{"name", psnr.name}};
+  put_db(report, "db", psnr.db);
+  report.update({{"peak", psnr.peak}, {"formula", psnr.formula}});
+  return report;
 }
 
 Json metro_report(const Pair& pair, Progress& progress) {
@@ -93,16 +97,11 @@ int run_distance(const DistanceArguments& options, Context& context) {
   Progress progress = context.console.progress();
   const Pair pair(options, context);
   const SurfaceDistance d = surface_distance(pair.a, pair.tree_a, pair.b, pair.tree_b, options.distance, progress);
-  Json report = {{"forward", direction(d.forward)},
-                 {"backward", direction(d.backward)},
-                 {"mean", d.mean()},
-                 {"rms", d.rms()},
-                 {"quantile95", d.quantile95()},
-                 {"hausdorff", d.hausdorff()},
-                 {"diagonal", d.diagonal},
-                 {"psnr_db", d.psnr_db()},
-                 {"psnr_formula", diagonal_psnr(d).formula},
-                 {"standard_error_db", d.standard_error_db()}};
+  Json report = {
+      {"forward", direction(d.forward)}, {"backward", direction(d.backward)}, {"mean", d.mean()},      {"rms", d.rms()},
+      {"quantile95", d.quantile95()},    {"hausdorff", d.hausdorff()},        {"diagonal", d.diagonal}};
+  put_db(report, "psnr_db", d.psnr_db());
+  report.update({{"psnr_formula", diagonal_psnr(d).formula}, {"standard_error_db", d.standard_error_db()}});
   report["mpeg_d1"] = report_of(mpeg_d1_psnr(pair.a, d));
   if (options.mpeg)
     report["mpeg_d2"] = report_of(mpeg_d2_psnr(pair.a, pair.tree_a, pair.b, pair.tree_b, options.distance, progress));
@@ -135,12 +134,12 @@ void add_distance(CLI::App& app, Context& context) {
   command.sampling_options(options->distance.samples, options->distance.seed);
   command.number("--tolerance-db", options->distance.tolerance_db, 0.0, 10.0,
                  "add samples until the RMS's standard error is at most this, 0 for no more than --samples");
-  command.number("--hausdorff-tolerance", options->hausdorff_tolerance, 0.0, 1.0,
-                 "also enclose the Hausdorff distance in certain bounds, this much apart; 0 for samples alone");
+  command.number_or_none("--hausdorff-tolerance", options->hausdorff_tolerance, HausdorffOptions::kLeastTolerance, 1.0,
+                         "also enclose the Hausdorff distance in certain bounds, this much apart; 0 for samples alone");
   command.flag("--metro", options->metro, "also what Metro 4.07 computes, with its samples and averages");
   command.flag("--mpeg", options->mpeg, "also MPEG's D2 PSNR (point to plane)");
-  command.optional_file("--per-vertex", options->per_vertex,
-                        "also write A as PLY with each vertex's distance and a colour");
+  command.optional_output("--per-vertex", options->per_vertex, Content::Ply,
+                          "also write A as PLY with each vertex's distance and a colour");
   command.footer(
       "Forward is from A to B, and beneath both directions stands the larger number of the two. Mean, RMS and the 95%\n"
       "quantile are over area; Hausdorff is the largest over the samples, which --hausdorff-tolerance encloses from "

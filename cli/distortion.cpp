@@ -94,9 +94,9 @@ void add_distortion(CLI::App& app, Context& context) {
   Command command(app, context, "distortion", "how much a map stretches, how smooth it is, and whether it folds");
   auto options = std::make_shared<DistortionArguments>();
   command.argument("MAP", options->map, "map: *.param.ply");
-  command.optional_file("--per-face", options->per_face, "also write every face's measures as CSV");
-  command.optional_file("--picture", options->picture,
-                        "also write the surface as PLY with every face's measures and a colour");
+  command.optional_output("--per-face", options->per_face, Content::Csv, "also write every face's measures as CSV");
+  command.optional_output("--picture", options->picture, Content::Ply,
+                          "also write the surface as PLY with every face's measures and a colour");
   command.choice("--colour", options->colour, map_measure_names(),
                  "what colours the picture: gray is neutral, red the worst 5% of the area");
   command.footer(

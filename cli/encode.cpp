@@ -90,7 +90,7 @@ void add_encode(CLI::App& app, Context& context) {
   Command command(app, context, "encode", "a semi-regular mesh as an embedded stream");
   auto options = std::make_shared<EncodeArguments>();
   command.argument("MESH", options->mesh, "semi-regular mesh: *.sr.ply, or any mesh with subdivision connectivity");
-  command.output("STREAM", options->output, "the stream, *.pgc");
+  command.output("STREAM", options->output, Content::Stream, "the stream, *.pgc");
   command.read_options(options->read);
   command.encode_options(options->wavelet, options->encode);
   command.size("--bytes", options->bytes, 0, std::numeric_limits<std::size_t>::max(),

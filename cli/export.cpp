@@ -30,7 +30,7 @@ void add_export(CLI::App& app, Context& context) {
   Command command(app, context, "export", "a sweep's curves for other tools");
   auto options = std::make_shared<ExportArguments>();
   command.argument("RUN", options->run, "folder of a sweep");
-  command.output("DIR", options->output, "folder for the files");
+  command.output_folder("-o,--output", options->output, false, "folder for the files");
   command.choice("--format", options->format, export_format_words(), "what they are to be read by");
   command.optional_text("--recipe", "NAME", options->recipe, "of the recipes in the folder [the latest]");
   command.on_run([options, &context] { return run_export(*options, context); });

@@ -83,14 +83,23 @@ Command::Command(CLI::App& app, Context& context, const std::string& name, const
 
 void Command::argument(const std::string& place, std::string& value, const std::string& text) {
   app_->add_option(place, value, text)->required()->option_text(" ");
+  paths_.inputs.push_back(&value);
 }
 
 void Command::arguments(const std::string& place, std::vector<std::string>& values, const std::string& text) {
   app_->add_option(place, values, text)->required()->option_text("...");
+  paths_.input_lists.push_back(&values);
 }
 
-void Command::output(const std::string& place, std::string& value, const std::string& text) {
+void Command::output(const std::string& place, std::string& value, Content content, const std::string& text) {
   required_option("-o,--output", place, value, text);
+  paths_.outputs.push_back({kRequired, &value, content});
+}
+
+void Command::output_folder(const std::string& name, std::string& value, bool beside_input, const std::string& text) {
+  required_option(name, "DIR", value, text);
+  paths_.folder = &value;
+  paths_.folder_beside_input = beside_input;
 }
 
 void Command::required_option(const std::string& name, const std::string& place, std::string& value,
@@ -108,8 +117,19 @@ void Command::texts(const std::string& name, std::vector<std::string>& values, c
   app_->add_option(name, values, text + " [none]")->option_text(place);
 }
 
-void Command::optional_file(const std::string& name, std::string& value, const std::string& text) {
+void Command::optional_output(const std::string& name, std::string& value, Content content, const std::string& text) {
   optional_text(name, "FILE", value, text + " [none]");
+  paths_.outputs.push_back({name, &value, content});
+}
+
+void Command::optional_input(const std::string& name, std::string& value, const std::string& text) {
+  optional_text(name, "FILE", value, text + " [none]");
+  paths_.inputs.push_back(&value);
+}
+
+void Command::required_input(const std::string& name, std::string& value, const std::string& text) {
+  required_option(name, "FILE", value, text);
+  paths_.inputs.push_back(&value);
 }
 
 void Command::text(const std::string& name, std::string& value, const std::string& text, const std::string& meaning) {
@@ -129,6 +149,16 @@ void Command::size(const std::string& name, std::size_t& value, std::size_t low,
 
 void Command::number(const std::string& name, double& value, double low, double high, const std::string& text) {
   add_bounded(*app_, name, value, low, high, text);
+}
+
+void Command::number_or_none(const std::string& name, double& value, double low, double high, const std::string& text) {
+  const std::string range = "0 or " + range_of(low, high);
+  app_->add_option(name, value, fmt::format("{} [{}; {}]", text, value, range))
+      ->check([=](const std::string& given) {
+        const bool none = refusal(given, 0.0, 0.0, range).empty();
+        return none ? std::string() : refusal(given, low, high, range);
+      })
+      ->option_text("X");
 }
 
 void Command::integer_or_auto(const std::string& name, int& value, int automatic, int low, int high,
@@ -192,7 +222,12 @@ void Command::hide() { app_->group(""); }
 void Command::footer(const std::string& text) { app_->footer(text); }
 
 void Command::on_run(std::function<int()> action) {
-  app_->callback([&context = context_, action = std::move(action)] { context.action = action; });
+  app_->callback([&context = context_, paths = paths_, action = std::move(action)] {
+    context.action = [paths, action] {
+      require_outputs(paths);
+      return action();
+    };
+  });
 }
 
 void Command::axis_integer(const std::string& name, int& value, const std::string& text) {

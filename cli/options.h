@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/output_paths.h"
 #include "coder/codec.h"
 #include "experiments/cells/cell_options.h"
 #include "mesh/io.h"
@@ -23,23 +24,32 @@ class Command {
   /// Adds a subcommand with the options that all of them have: --json, --quiet, --verbose, --threads.
   Command(CLI::App& app, Context& context, const std::string& name, const std::string& text);
 
-  /// A required argument without a dash, shown as PLACE.
+  /// A required argument without a dash, shown as PLACE: a file that is read, or a folder with a run.
   void argument(const std::string& place, std::string& value, const std::string& text);
+  /// The same for any number of files and folders.
   void arguments(const std::string& place, std::vector<std::string>& values, const std::string& text);
-  /// The required -o, --output.
-  void output(const std::string& place, std::string& value, const std::string& text);
+  /// The required -o, --output: a file.
+  void output(const std::string& place, std::string& value, Content content, const std::string& text);
+  /// A required folder that is written into; it may be the one that is read where its files have other names.
+  void output_folder(const std::string& name, std::string& value, bool beside_input, const std::string& text);
   void required_option(const std::string& name, const std::string& place, std::string& value, const std::string& text);
   void optional_text(const std::string& name, const std::string& place, std::string& value, const std::string& text);
   /// Any number of texts.
   void texts(const std::string& name, std::vector<std::string>& values, const std::string& place,
              const std::string& text);
-  void optional_file(const std::string& name, std::string& value, const std::string& text);
+  /// A further file that is written, none where the option is not given.
+  void optional_output(const std::string& name, std::string& value, Content content, const std::string& text);
+  /// A further file that is read.
+  void optional_input(const std::string& name, std::string& value, const std::string& text);
+  void required_input(const std::string& name, std::string& value, const std::string& text);
   /// Any text; where none is given it is as `meaning` says.
   void text(const std::string& name, std::string& value, const std::string& text, const std::string& meaning);
   void flag(const std::string& name, bool& value, const std::string& text);
   void integer(const std::string& name, int& value, int low, int high, const std::string& text);
   void size(const std::string& name, std::size_t& value, std::size_t low, std::size_t high, const std::string& text);
   void number(const std::string& name, double& value, double low, double high, const std::string& text);
+  /// The same, or 0, which stands for none.
+  void number_or_none(const std::string& name, double& value, double low, double high, const std::string& text);
   /// An integer in [low, high], or the word auto, which stands for `automatic`.
   void integer_or_auto(const std::string& name, int& value, int automatic, int low, int high, const std::string& text);
   /// One of a few words.
@@ -58,7 +68,7 @@ class Command {
   void hide();
   /// What --help ends with.
   void footer(const std::string& text);
-  /// What the command does when all its options are right.
+  /// What the command does when all its options are right and its outputs can be written (`require_outputs`).
   void on_run(std::function<int()> action);
 
   /// --weld: how the surfaces of the command are read.
@@ -78,6 +88,7 @@ class Command {
   void axis_word(const std::string& name, Stage CellOptions::*stage, Stage& options, const std::string& text);
   void axis_number(const std::string& name, double& value, const std::string& text);
 
+  CommandPaths paths_;
   CLI::App* app_;
   Context& context_;
 };

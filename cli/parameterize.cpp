@@ -82,14 +82,15 @@ void add_parameterize(CLI::App& app, Context& context) {
   Command command(app, context, "parameterize", "a globally smooth map of a surface onto a base complex");
   auto options = std::make_shared<ParameterizeArguments>();
   command.argument("MESH", options->mesh, "surface: PLY, OBJ, OFF or STL");
-  command.output("MAP", options->output, "the map, *.param.ply");
+  command.output("MAP", options->output, Content::Ply, "the map, *.param.ply");
   command.read_options(options->read);
   command.choice("--method", options->method, map_method_words(),
                  "the paper's map, or a baseline on the same base vertices");
   command.parameterize_options(options->parameterize);
-  command.optional_file("--omega-csv", options->omega_csv, "also write the cost of every vertex removal (figure 5d)");
-  command.optional_file(
-      "--omega-plot", options->omega_plot,
+  command.optional_output("--omega-csv", options->omega_csv, Content::Csv,
+                          "also write the cost of every vertex removal (figure 5d)");
+  command.optional_output(
+      "--omega-plot", options->omega_plot, Content::Figure,
       "also draw that cost with its three stages and the automatic stop: FILE's name with .png, .svg and .gp");
   command.flag("--check", options->check, "check the map face by face; exit status 1 where it is not valid");
   command.on_run([options, &context] { return run_parameterize(*options, context); });

@@ -46,7 +46,7 @@ void add_picture(CLI::App& app, Context& context) {
   Command command(app, context, "picture", "a surface or map as PNG: patches, iso-lines, distortion, remesh, distance");
   auto options = std::make_shared<PictureArguments>();
   command.argument("FILE", options->surface, "map (*.param.ply), semi-regular mesh (*.sr.ply) or any surface");
-  command.output("PNG", options->output, "the picture");
+  command.output("PNG", options->output, Content::Picture, "the picture");
   command.choice("--what", options->what, subject_words(),
                  "what is shown; wireframe, surface and distance do with any surface, the others want a map");
   std::vector<std::string> measures = map_measure_names();
@@ -55,7 +55,7 @@ void add_picture(CLI::App& app, Context& context) {
   command.integer("--lines", options->picture.density, 1, 1024, "of isolines: lines across a patch, each way");
   command.read_options(options->picture.read);
   command.remesh_options(options->picture.remesh);
-  command.optional_file("--to", options->picture.other, "of distance: the surface to measure to");
+  command.optional_input("--to", options->picture.other, "of distance: the surface to measure to");
   command.direction("--view", options->picture.view.toward, "from where it is seen; auto shows the broadest side");
   command.direction("--up", options->picture.view.up, "what points up; auto takes y or z");
   command.integer("--size", options->picture.render.size, 16, 8192, "pixels of the longer side");

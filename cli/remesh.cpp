@@ -43,7 +43,7 @@ void add_remesh(CLI::App& app, Context& context) {
   Command command(app, context, "remesh", "a semi-regular mesh made through a map");
   auto options = std::make_shared<RemeshArguments>();
   command.argument("MAP", options->map, "map: *.param.ply");
-  command.output("MESH", options->output, "the mesh, *.sr.ply");
+  command.output("MESH", options->output, Content::Ply, "the mesh, *.sr.ply");
   command.remesh_options(options->remesh);
   command.number(
       "--max-error", options->max_error, 0.0, 1.0,

@@ -39,7 +39,8 @@ void add_report(CLI::App& app, Context& context) {
                   "a page that answers what a run was for: sentences, curves, surfaces, figures");
   auto options = std::make_shared<ReportArguments>();
   command.argument("RUN", options->run, "store of gsp sweep, or folder of gsp curve");
-  command.output("DIR", options->output, "folder for index.html, which opens from disk, and what it shows");
+  command.output_folder("-o,--output", options->output, false,
+                        "folder for index.html, which opens from disk, and what it shows");
   command.text("--recipe", options->report.recipe, "of a store with several", "the latest");
   command.integer("--views", options->report.views, 0, 100, "cells of each model in the 3D view, a few MB each");
   command.flag("--no-figures", options->no_figures, "leave the figures out, and with them gnuplot");

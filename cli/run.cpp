@@ -1,7 +1,10 @@
 #include "cli/run.h"
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -67,20 +70,36 @@ int usage_error(CLI::App& app, const CLI::ParseError& error, Context& context) {
   return kWrongUsage;
 }
 
+int report_failure(Context& context, const Error& error) {
+  context.console.error(std::string("gsp: ") + error.what());
+  if (context.json) print_report(context, {{"error", error_report(error)}});
+  return error.cause() == Cause::Cancelled && interrupted() ? kInterruptedStatus : exit_status(error.cause());
+}
+
 int act(Context& context) {
   try {
     set_thread_count(context.threads);
     return context.action();
   } catch (const Error& error) {
-    context.console.error(std::string("gsp: ") + error.what());
-    if (context.json) print_report(context, {{"error", error_report(error)}});
-    return error.cause() == Cause::Cancelled && interrupted() ? kInterruptedStatus : exit_status(error.cause());
+    return report_failure(context, error);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return report_failure(context,
+                          {Cause::CannotWrite, "cannot use " + error.path1().string() + ": " + error.code().message()});
   } catch (const std::bad_alloc&) {
-    context.console.error("gsp: not enough memory");
+    return report_failure(context, {Cause::OutOfMemory, "not enough memory"});
   } catch (const std::exception& error) {
-    context.console.error(std::string("gsp: ") + error.what());
+    return report_failure(context, {Cause::Internal, error.what()});
   }
-  return kFailed;
+}
+
+// The status of a run whose data have reached standard output, and a failure where they have not.
+int delivered(std::ostream& out, std::ostream& err, int status) {
+  errno = 0;
+  out.flush();
+  if (out.good()) return status;
+  err << "gsp: standard output cannot be written" << (errno != 0 ? std::string(": ") + std::strerror(errno) : "")
+      << '\n';
+  return status == 0 ? kFailed : status;
 }
 
 }  // namespace
@@ -92,11 +111,11 @@ int run(const std::vector<std::string>& args, std::ostream& out, std::ostream& e
     add_commands(app, context);
     app.parse(std::vector<std::string>(args.rbegin(), args.rend()));
   } catch (const CLI::Success& request) {
-    return app.exit(request, out, err);
+    return delivered(out, err, app.exit(request, out, err));
   } catch (const CLI::ParseError& error) {
     return usage_error(app, error, context);
   }
-  return act(context);
+  return delivered(out, err, act(context));
 }
 
 }  // namespace gsp::cli

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/output/decibels.h"
+
 namespace gsp::cli {
 
 namespace {
@@ -25,8 +27,9 @@ Json method_report(const MethodSummary& m) {
                    {"base_faces", m.base_faces},
                    {"level", m.level},
                    {"positions", m.positions},
-                   {"coder", m.coder},
-                   {"ceiling_db", m.ceiling_db}});
+                   {"coder", m.coder}});
+  if (m.ceiling_db) put_db(report, "ceiling_db", m.ceiling_db);
+  if (m.exact_from_bytes) report["exact_from_bytes"] = *m.exact_from_bytes;
   if (m.gain)
     report["gain"] = {{"mean_db", m.gain->mean_db}, {"from_bytes", m.gain->from_bytes}, {"to_bytes", m.gain->to_bytes}};
   if (m.bd) {

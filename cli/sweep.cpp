@@ -112,7 +112,7 @@ void add_sweep(CLI::App& app, Context& context) {
   auto options = std::make_shared<SweepArguments>();
   constexpr int kMostJobs = 1024;
   command.argument("RECIPE", options->recipe, "what to vary, TOML (experiments/recipes has some)");
-  command.required_option("--store", "DIR", options->store, "folder for the results");
+  command.output_folder("--store", options->store, true, "folder for the results");
   command.texts("--models", options->models, "PATTERN...",
                 "surfaces instead of the recipe's; one called as a model with keys of its own keeps them");
   command.integer("--jobs", options->sweep.jobs, 0, kMostJobs,

@@ -11,6 +11,7 @@
 #include "experiments/curve/curve_csv.h"
 #include "experiments/output/quoting.h"
 #include "experiments/plot/plot.h"
+#include "mesh/atomic_file.h"
 
 namespace gsp {
 
@@ -31,7 +32,7 @@ void attempt(CurveSummary& summary, const std::function<void()>& step) {
     if (error.cause() == Cause::Cancelled) throw;
     record(cause_name(error.cause()), error.what());
   } catch (const std::bad_alloc&) {
-    record("out-of-memory", "not enough memory");
+    record(cause_name(Cause::OutOfMemory), "not enough memory");
   } catch (const std::exception& error) {
     record(cause_name(Cause::Internal), error.what());
   }
@@ -41,7 +42,7 @@ class Job {
  public:
   Job(std::string folder, const ReadOptions& read, const CurveOptions& options, Progress& progress)
       : folder_(std::move(folder)), read_(read), options_(options), progress_(progress) {
-    fs::create_directories(folder_);
+    make_folder(folder_);
   }
 
   void add(const std::string& surface, const std::string& model) {

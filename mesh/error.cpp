@@ -60,6 +60,8 @@ const char* cause_name(Cause cause) {
       return "cancelled";
     case Cause::ToolMissing:
       return "tool-missing";
+    case Cause::OutOfMemory:
+      return "out-of-memory";
     case Cause::Internal:
       return "internal";
     case Cause::BadOption:

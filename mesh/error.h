@@ -33,6 +33,7 @@ enum class Cause {
   SolverFailed,  ///< the linear system could not be factorized or solved
   Cancelled,     ///< the progress callback asked to stop
   ToolMissing,   ///< an external program (gnuplot) is not there
+  OutOfMemory,   ///< there is not enough memory
   Internal,      ///< an invariant does not hold: a bug in gsp
   // Wrong usage, exit status 2.
   BadOption,  ///< an option's value is out of its range

@@ -15,16 +15,6 @@ namespace gsp {
 
 namespace {
 
-/// Rounding of pieces' corners and computed distances, in the largest coordinate; bounds are widened by it.
-constexpr double kRounding = 1e-13;
-
-double largest_coordinate(const Mesh& mesh) {
-  double largest = 0.0;
-  for (const Triangle& face : mesh.faces)
-    for (int v : face) largest = std::max(largest, mesh.positions[v].cwiseAbs().maxCoeff());
-  return largest;
-}
-
 /// A point of the first surface with its distance from the second and the triangle it is nearest to.
 struct Probe {
   Vec3 point;
@@ -232,7 +222,7 @@ HausdorffBounds hausdorff_bounds(const Mesh& a, const SurfaceTree& tree_a, const
                                  const HausdorffOptions& options, Progress& progress) {
   if (!(options.tolerance >= HausdorffOptions::kLeastTolerance && options.tolerance <= 1.0))
     throw Error(Cause::BadOption, "the tolerance of the Hausdorff bounds is between 1e-6 and 1");
-  const double rounding = kRounding * std::max(largest_coordinate(a), largest_coordinate(b));
+  const double rounding = distance_rounding(a, b);  // bounds are widened by it
   HausdorffBounds result;
   result.forward = Search(a, tree_b.impl().tree, options, rounding).run("Hausdorff forward", progress);
   result.backward = Search(b, tree_a.impl().tree, options, rounding).run("Hausdorff backward", progress);

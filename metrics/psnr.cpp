@@ -18,9 +18,9 @@ namespace {
 
 double longest_side(const Mesh& mesh) { return bounding_box(mesh).sizes().maxCoeff(); }
 
-double mpeg_db(double peak, double mean_square) {
-  return mean_square > 0.0 ? 10.0 * std::log10(3.0 * peak * peak / mean_square)
-                           : std::numeric_limits<double>::infinity();
+double mpeg_db(double peak, double mean_square, double rounding) {
+  return mean_square > rounding * rounding ? 10.0 * std::log10(3.0 * peak * peak / mean_square)
+                                           : std::numeric_limits<double>::infinity();
 }
 
 /// Mean over even samples of the squared distance to the plane of the nearest face.
@@ -56,7 +56,7 @@ Psnr mpeg_d1_psnr(const Mesh& reference, const SurfaceDistance& distance) {
   const double peak = longest_side(reference);
   return {"MPEG D1 (point to point)",
           "10 log10(3 peak^2 / larger mean square), peak the longest side of the first's box", peak,
-          mpeg_db(peak, distance.rms() * distance.rms())};
+          mpeg_db(peak, distance.rms() * distance.rms(), distance.rounding)};
 }
 
 Psnr mpeg_d2_psnr(const Mesh& reference, const SurfaceTree& reference_tree, const Mesh& other,
@@ -71,7 +71,7 @@ Psnr mpeg_d2_psnr(const Mesh& reference, const SurfaceTree& reference_tree, cons
   return {"MPEG D2 (point to plane)",
           "10 log10(3 peak^2 / larger mean square along the nearest face's normal), peak the longest side of the "
           "first's box",
-          peak, mpeg_db(peak, std::max(forward, backward))};
+          peak, mpeg_db(peak, std::max(forward, backward), distance_rounding(reference, other))};
 }
 
 }  // namespace gsp

@@ -31,7 +31,7 @@ double SurfaceDistance::quantile95() const { return std::max(forward.quantile95,
 double SurfaceDistance::hausdorff() const { return std::max(forward.hausdorff, backward.hausdorff); }
 
 double SurfaceDistance::psnr_db() const {
-  return rms() > 0.0 ? 20.0 * std::log10(diagonal / rms()) : std::numeric_limits<double>::infinity();
+  return exact() ? std::numeric_limits<double>::infinity() : 20.0 * std::log10(diagonal / rms());
 }
 
 double OneWayDistance::standard_error_db() const {
@@ -40,6 +40,15 @@ double OneWayDistance::standard_error_db() const {
 
 double SurfaceDistance::standard_error_db() const {
   return (forward.rms >= backward.rms ? forward : backward).standard_error_db();
+}
+
+double distance_rounding(const Mesh& a, const Mesh& b) {
+  constexpr double kRounding = 1e-13;
+  double largest = 0.0;
+  for (const Mesh* mesh : {&a, &b})
+    for (const Triangle& face : mesh->faces)
+      for (int v : face) largest = std::max(largest, mesh->positions[v].cwiseAbs().maxCoeff());
+  return kRounding * largest;
 }
 
 SurfaceDistance surface_distance(const Mesh& a, const Mesh& b, const DistanceOptions& options, Progress& progress) {
@@ -58,6 +67,7 @@ SurfaceDistance surface_distance(const Mesh& a, const SurfaceTree& tree_a, const
     throw Error(Cause::BadOption, "the tolerance is a number of decibels, at least 0");
   SurfaceDistance result;
   result.diagonal = bounding_box_diagonal(a);
+  result.rounding = distance_rounding(a, b);
   const TriangleTree &a_tree = tree_a.impl().tree, &b_tree = tree_b.impl().tree;
   result.forward = sampled_distance(a, a_tree, b_tree, result.diagonal, options, "distance forward", progress);
   result.backward = sampled_distance(b, b_tree, a_tree, result.diagonal, options, "distance backward", progress);

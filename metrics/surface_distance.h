@@ -57,14 +57,20 @@ struct SurfaceDistance {
   OneWayDistance forward;   ///< from a to b
   OneWayDistance backward;  ///< from b to a
   double diagonal = 0.0;    ///< of a's bounding box: the peak of PSNR
+  double rounding = 0.0;    ///< `distance_rounding`: an RMS up to this is none
 
   double rms() const;  ///< the larger of the two directions
   double mean() const;
   double quantile95() const;
   double hausdorff() const;
-  double psnr_db() const;            ///< 20·log10(diagonal / rms()); infinite for equal surfaces
-  double standard_error_db() const;  ///< of the direction with the larger RMS
+  bool exact() const { return rms() <= rounding; }  ///< the surfaces are the same, up to the rounding of coordinates
+  double psnr_db() const;                           ///< 20·log10(diagonal / rms()); infinite where it is exact
+  double standard_error_db() const;                 ///< of the direction with the larger RMS
 };
+
+/// What computed distances between two surfaces may be too large by: 1e-13 of the largest coordinate of their faces,
+/// some hundred times the rounding of one operation.
+double distance_rounding(const Mesh& a, const Mesh& b);
 
 /// Distance between surface `a` (the reference) and `b`, both ways (algorithms.md §7). Mean, RMS and quantile are those
 /// over area. Samples are one per stratum; strata are smaller where the vertices and samples taken before found the

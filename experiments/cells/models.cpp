@@ -56,8 +56,6 @@ std::vector<std::string> files_in(const std::string& folder) {
   return files;
 }
 
-bool is_shape(const std::string& source) { return source.rfind(kShapePrefix, 0) == 0; }
-
 const Shape& shape_of(const std::string& source) {
   const std::string name = source.substr(std::string(kShapePrefix).size());
   for (const Shape& shape : kShapes)
@@ -70,6 +68,8 @@ const Shape& shape_of(const std::string& source) {
 }
 
 }  // namespace
+
+bool is_shape(const std::string& source) { return source.rfind(kShapePrefix, 0) == 0; }
 
 std::vector<std::string> shape_names() {
   std::vector<std::string> names;

@@ -13,6 +13,9 @@ struct ModelSource {
   std::string source;
 };
 
+/// True for "shape:NAME".
+bool is_shape(const std::string& source);
+
 /// Where a surface lies, however its path is spelled ("m.off", "./m.off"): the same text for the same file. Links are
 /// not followed, since names of links are names of models.
 std::string surface_place(const std::string& source);

@@ -25,8 +25,9 @@ struct BaselineRow {
   std::map<std::string, double> numbers;
   /// CPU time of each stage, by "time parameterize" and so on, in units of the reference task of its session.
   std::map<std::string, double> times;
-  RateCurve curve;          ///< upper envelope of its points
-  double ceiling_db = 0.0;  ///< 0 where there is none
+  RateCurve curve;                   ///< upper envelope of its points
+  std::optional<double> ceiling_db;  ///< infinite where the remesh is exact
+  std::string surface;               ///< hash of the file's surface; empty for a generated one, which is the program's
 };
 
 struct Baseline {

@@ -36,7 +36,8 @@ struct CheckOptions {
 
 /// Holds a run to a baseline: rows are found by model and label; every number against its tolerance, the curve by its
 /// BD-rate over the baseline's, times in units of the reference task. A row that is gone, fails, or is made by other
-/// options fails the check; a row that is new does not.
+/// options or of another surface fails the check, and so does a check that compared no number; a row or number that is
+/// new does not. Infinite decibels are equal to each other and better than any others.
 CheckResult check(const Baseline& baseline, const Baseline& run, const CheckOptions& options);
 
 /// The result as JUnit XML, one test case a row.

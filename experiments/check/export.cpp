@@ -1,7 +1,7 @@
 #include "experiments/check/export.h"
 
 #include <algorithm>
-#include <filesystem>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "experiments/curve/curve_csv.h"
@@ -10,6 +10,7 @@
 #include "experiments/store/json_file.h"
 #include "experiments/sweep/sweep.h"
 #include "experiments/version.h"
+#include "mesh/atomic_file.h"
 
 namespace gsp {
 
@@ -33,10 +34,13 @@ std::string file_name(const std::string& text, const std::string& ending) {
   return stem + ending;
 }
 
+// Other tools have no place for an infinite PSNR.
+bool exported(const CurvePoint& point) { return on_a_curve(point) && std::isfinite(point.psnr_db); }
+
 Json compressai_json(const StoredCell& cell) {
   Json bpp = Json::array(), psnr = Json::array();
   for (const CurvePoint& point : cell.points()) {
-    if (!on_a_curve(point)) continue;
+    if (!exported(point)) continue;
     bpp.push_back(point.bits_per_vertex);
     psnr.push_back(point.psnr_db);
   }
@@ -52,7 +56,7 @@ Json batch_json(const std::string& label, const std::vector<StoredCell>& cells) 
     // Streams of their own for each size are made while they are measured, without a time of their own.
     const StageResult* encode = cell.options.mode == StreamMode::Fixed ? nullptr : cell.stage(StageKind::Encode);
     for (const CurvePoint& point : cell.points())
-      if (cell.label == label && on_a_curve(point))
+      if (cell.label == label && exported(point))
         rows.push_back(
             {cell.model, point.bytes, point.psnr_db, encode ? Json(encode->seconds) : Json(0.0), point.bytes});
   }
@@ -94,9 +98,7 @@ ExportFormat export_format_of(const std::string& word) {
 
 std::vector<std::string> export_cells(const std::vector<StoredCell>& cells, const std::string& recipe,
                                       ExportFormat format, const std::string& folder) {
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed) throw Error(Cause::CannotWrite, "cannot make " + folder + ": " + failed.message());
+  make_folder(folder);
   std::vector<std::string> files;
   const auto next = [&](const std::string& name, const std::string& ending) {
     return files.emplace_back(folder + '/' + file_name(name, ending));

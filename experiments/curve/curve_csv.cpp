@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <string_view>
 
 #include "experiments/curve/point_fields.h"
 #include "experiments/output/csv.h"
@@ -18,9 +19,10 @@ namespace {
 CurvePoint point_of(const CsvRow& row) {
   CurvePoint point;
   for (const PointField& field : point_fields()) {
-    // A surface that is met exactly has an infinite PSNR.
-    if (field.member == PointMember(&CurvePoint::psnr_db) && row.text(field.name) == "inf")
-      point.psnr_db = std::numeric_limits<double>::infinity();
+    // Decibels alone may be infinite (output/decibels.h).
+    const auto* number = std::get_if<double CurvePoint::*>(&field.member);
+    if (number && std::string_view(field.unit) == "dB" && row.text(field.name) == "inf")
+      point.** number = std::numeric_limits<double>::infinity();
     else
       std::visit([&](auto member) { row.read(field.name, point.*member); }, field.member);
   }

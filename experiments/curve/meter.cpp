@@ -14,15 +14,16 @@ CurvePoint Meter::measure(const Mesh& decoded, std::size_t bytes, std::size_t sa
   point.bytes = bytes;
   point.bits_per_vertex = 8.0 * static_cast<double>(bytes) / mesh_.vertex_count();
   point.faces = decoded.face_count();
+  point.psnr_db = distance.psnr_db();
+  point.samples = samples;
+  point.seed = seed_;
+  point.version = version();
+  if (distance.exact()) return point;  // all distances are 0
   point.rms_forward = distance.forward.rms / distance.diagonal;
   point.rms_backward = distance.backward.rms / distance.diagonal;
   point.rms = distance.rms() / distance.diagonal;
   point.hausdorff = distance.hausdorff() / distance.diagonal;
-  point.psnr_db = distance.psnr_db();
-  point.samples = samples;
   point.standard_error_db = distance.standard_error_db();
-  point.seed = seed_;
-  point.version = version();
   return point;
 }
 

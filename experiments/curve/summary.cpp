@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <ostream>
 
 #include "experiments/cells/cell_options.h"
+#include "experiments/output/decibels.h"
 #include "experiments/output/quoting.h"
 
 namespace gsp {
@@ -16,11 +18,11 @@ namespace gsp {
 namespace {
 
 // Where a curve comes within the margin of its ceiling: from there on it measures the remesh.
-double trusted_bytes(const RateCurve& curve, double ceiling) {
+double trusted_bytes(const RateCurve& curve, const std::optional<double>& ceiling) {
   if (curve.empty()) return 0.0;
-  if (ceiling == 0.0) return curve.back().bytes;
-  if (curve.front().psnr_db > ceiling - kCeilingMarginDb) return 0.0;
-  return bytes_at(curve, ceiling - kCeilingMarginDb).value_or(curve.back().bytes);
+  if (!ceiling) return curve.back().bytes;
+  if (curve.front().psnr_db > *ceiling - kCeilingMarginDb) return 0.0;
+  return bytes_at(curve, *ceiling - kCeilingMarginDb).value_or(curve.back().bytes);
 }
 
 std::string cell(const std::optional<double>& value, int precision) {
@@ -58,12 +60,14 @@ void print_model(std::ostream& out, const CurveSummary& summary) {
     const bool anchor = m.base_vertices == 0;
     fmt::print(out, "  {:<{}}{:>6}{:>6}{:>11}{:>9}", m.method, width, anchor ? "-" : std::to_string(m.base_vertices),
                anchor ? "-" : std::to_string(m.level), m.positions.empty() ? "-" : m.positions,
-               anchor ? "-" : fmt::format("{:.1f}", m.ceiling_db));
+               m.ceiling_db ? db_text(*m.ceiling_db, 1) : "-");
     for (const auto& bytes : m.bytes_at) fmt::print(out, "{:>9}", cell(bytes, 0));
     const std::string range = m.gain ? fmt::format("{:.0f}..{:.0f}", m.gain->from_bytes, m.gain->to_bytes) : "-";
     fmt::print(out, "{:>10}{:>20}{:>10}\n", m.gain ? fmt::format("{:+.2f} dB", m.gain->mean_db) : "-", range,
                m.bytes_ratio ? fmt::format("{:.2f}x", *m.bytes_ratio) : "-");
   }
+  for (const MethodSummary& m : summary.methods)
+    if (m.exact_from_bytes) fmt::print(out, "  {} is exact from {:.0f} bytes on\n", m.method, *m.exact_from_bytes);
   for (std::size_t i = 1; i < summary.methods.size(); ++i)
     print_bd(out, summary.methods.front().method, summary.methods[i]);
   for (const MethodSummary& m : summary.methods)
@@ -76,6 +80,7 @@ void print_definitions(std::ostream& out, const std::string& first, bool fixed) 
   fmt::print(
       out,
       "PSNR = 20 log10(bounding-box diagonal of the input / RMS distance), RMS the larger of both directions.\n"
+      "A surface that is met exactly has an infinite PSNR, which is written as exact and in no mean.\n"
       "positions: what the remesh's vertices are; the paper's are sampled. ceiling: PSNR of the uncoded remesh.\n"
       "50 dB ...: bytes at which the curve reaches it; - where it starts above, or does not.\n"
       "gain: PSNR of {} less that of the row's method, mean over log-bytes from {:.0f} bytes up to where the first\n"
@@ -107,11 +112,14 @@ void compare_bd(MethodSummary& m, const std::vector<CurvePoint>& first, const st
 
 }  // namespace
 
-double ceiling_db(const std::vector<CurvePoint>& points) {
-  return points.empty() || !(points.front().remesh_error > 0.0) ? 0.0 : -20.0 * std::log10(points.front().remesh_error);
+std::optional<double> ceiling_db(const std::vector<CurvePoint>& points) {
+  if (points.empty()) return std::nullopt;
+  const CurvePoint& any = points.front();
+  if (any.remesh_error > 0.0) return -20.0 * std::log10(any.remesh_error);
+  return any.base_vertices > 0 ? std::optional(std::numeric_limits<double>::infinity()) : std::nullopt;
 }
 
-bool on_a_curve(const CurvePoint& point) { return std::isfinite(point.psnr_db) && point.coder != kDracoLossless; }
+bool on_a_curve(const CurvePoint& point) { return point.coder != kDracoLossless; }
 
 RateCurve envelope_of(const std::vector<CurvePoint>& points) {
   RateCurve curve;
@@ -122,8 +130,8 @@ RateCurve envelope_of(const std::vector<CurvePoint>& points) {
 
 BdCurve bd_curve(const std::vector<CurvePoint>& points) {
   BdCurve curve;
-  for (const RatePoint& point : envelope_of(points)) curve.points.push_back({point.bytes, point.psnr_db});
-  if (const double ceiling = ceiling_db(points); ceiling > 0.0) curve.ceiling_db = ceiling;
+  for (const RatePoint& point : finite_part(envelope_of(points))) curve.points.push_back({point.bytes, point.psnr_db});
+  if (const auto ceiling = ceiling_db(points)) curve.ceiling_db = *ceiling;
   return curve;
 }
 
@@ -153,6 +161,7 @@ CurveSummary summarize(const std::string& model, const std::vector<CurveSeries>&
     MethodSummary& m = summary.methods.emplace_back();
     m.method = name;
     m.ceiling_db = ceiling_db(points);
+    m.exact_from_bytes = exact_from(curve);
     m.base_vertices = points.front().base_vertices;
     m.base_faces = points.front().base_faces;
     m.level = points.front().level;

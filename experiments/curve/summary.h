@@ -28,9 +28,11 @@ struct CurveSeries {
 struct MethodSummary {
   std::string method;  ///< name of the series
   int base_vertices = 0, base_faces = 0, level = 0;
-  std::string positions;                        ///< of the remesh: fitted, sampled or closest; empty for the anchors
-  std::string coder;                            ///< `coder_name` of the mode; empty for the anchors
-  double ceiling_db = 0.0;                      ///< -20·log10(remeshing error); 0 for the anchors, which have none
+  std::string positions;  ///< of the remesh: fitted, sampled or closest; empty for the anchors
+  std::string coder;      ///< `coder_name` of the mode; empty for the anchors
+  /// -20·log10(remeshing error), infinite where the remesh is exact; empty for the anchors, which have none.
+  std::optional<double> ceiling_db;
+  std::optional<double> exact_from_bytes;       ///< the size from which on the curve is exact
   std::vector<std::optional<double>> bytes_at;  ///< at kTableLevelsDb
   std::optional<Gain> gain;                     ///< of the first method over this one; empty for the first itself
   /// Bjøntegaard deltas of the first method (test) over this one (anchor), under both ceilings less kCeilingMarginDb;
@@ -48,16 +50,16 @@ struct CurveSummary {
   std::vector<MethodSummary> methods;  ///< in the order of the points; the first is compared with the others
 };
 
-/// False for a surface that is met exactly, whose PSNR is infinite, and for the row of `kDracoLossless`.
+/// False for the row of `kDracoLossless`, which says from where on no curve can win.
 bool on_a_curve(const CurvePoint& point);
 
 /// The curve that points make: the upper envelope of those on a curve.
 RateCurve envelope_of(const std::vector<CurvePoint>& points);
 
-/// PSNR of the uncoded remesh; 0 for anchors, which have none.
-double ceiling_db(const std::vector<CurvePoint>& points);
+/// PSNR of the uncoded remesh, infinite where that is exact; empty for anchors, which have none.
+std::optional<double> ceiling_db(const std::vector<CurvePoint>& points);
 
-/// The points as `bd_compare` takes them, with the remesh's ceiling where there is one.
+/// The points of finite PSNR as `bd_compare` takes them, with the remesh's ceiling where there is one.
 BdCurve bd_curve(const std::vector<CurvePoint>& points);
 
 /// What the curve of a point is called: its method, with " mode=fixed" for streams of that mode, as labels of a sweep

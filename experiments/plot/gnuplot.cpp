@@ -13,6 +13,7 @@
 #include "experiments/output/quoting.h"
 #include "mesh/atomic_file.h"
 #include "mesh/error.h"
+#include "mesh/read_file.h"
 
 extern char** environ;
 
@@ -22,7 +23,7 @@ namespace {
 
 class ScratchFolder {
  public:
-  explicit ScratchFolder(std::string path) : path_(std::move(path)) { std::filesystem::create_directories(path_); }
+  explicit ScratchFolder(std::string path) : path_(std::move(path)) { make_folder(path_); }
   ~ScratchFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
@@ -74,11 +75,14 @@ std::vector<std::string> draw_figure(const std::string& folder, const std::strin
   file.stream() << script;
   file.commit();
   const std::vector<std::string> figures = {name + ".png", name + ".svg"};
-  // Drawn in a folder of its own and moved, so that an interrupt leaves no half of a figure.
+  // Drawn in a folder of its own and brought over as a whole, so that an interrupt leaves no half of a figure.
   const ScratchFolder scratch(folder + "/.plot-" + std::to_string(::getpid()));
   run_gnuplot(scratch.path(), "../" + name + ".gp");
-  for (const std::string& figure : figures)
-    std::filesystem::rename(scratch.path() + "/" + figure, folder + "/" + figure);
+  for (const std::string& figure : figures) {
+    AtomicFile drawn(folder + "/" + figure);
+    drawn.stream() << read_file(scratch.path() + "/" + figure);
+    drawn.commit();
+  }
   return {figures[0], figures[1], name + ".gp"};
 }
 

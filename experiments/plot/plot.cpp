@@ -46,11 +46,23 @@ std::pair<double, double> byte_range(const std::vector<CurveSeries>& curves) {
   return {low, high};
 }
 
-// A little above the highest ceiling: Draco, which has none, would push everything else down.
-std::string highest_shown(const std::vector<CurveSeries>& curves) {
+// A ceiling that has a height: that of an exact remesh is infinite.
+std::optional<double> drawn_ceiling(const CurveSeries& curve) {
+  const std::optional<double> ceiling = ceiling_db(curve.points);
+  return ceiling && std::isfinite(*ceiling) ? ceiling : std::nullopt;
+}
+
+// Up to a little above the highest ceiling: Draco, which has none, would push everything else down. Where no point has
+// a height, any range will do.
+std::string heights(const std::vector<CurveSeries>& curves) {
   double ceiling = 0.0;
-  for (const CurveSeries& curve : curves) ceiling = std::max(ceiling, ceiling_db(curve.points));
-  return ceiling > 0.0 ? fmt::format("{:.1f}", ceiling + 3.0) : "*";
+  bool any = false;
+  for (const CurveSeries& curve : curves) {
+    ceiling = std::max(ceiling, drawn_ceiling(curve).value_or(0.0));
+    any = any || !finite_part(envelope_of(curve.points)).empty();
+  }
+  if (ceiling > 0.0) return fmt::format("[*:{:.1f}]", ceiling + 3.0);
+  return any ? "[*:*]" : "[0:100]";
 }
 
 std::string byte_tics(double low, double high) {
@@ -71,7 +83,7 @@ std::string panel_data(const std::vector<CurveSeries>& curves, std::size_t panel
   std::string script;
   for (std::size_t m = 0; m < curves.size(); ++m) {
     script += data_name(panel, m) + " << EOD\n";
-    for (const RatePoint& point : envelope_of(curves[m].points))
+    for (const RatePoint& point : finite_part(envelope_of(curves[m].points)))
       script += fmt::format("{:.0f} {:.4f}\n", point.bytes, point.psnr_db);
     script += "EOD\n";
   }
@@ -100,8 +112,9 @@ class Looks {
                        kPoints[static_cast<std::size_t>(again) % std::size(kPoints)], again ? 1.0 : 0.5, colors_[i]);
   }
   std::string ceiling(const std::string& name) const {
-    return fmt::format("with lines dt 2 lw 1 lc rgb '{}'", colors_[place(name)]);
+    return fmt::format("with lines dt 2 lw 1 lc rgb '{}'", color(name));
   }
+  const std::string& color(const std::string& name) const { return colors_[place(name)]; }
 
  private:
   std::size_t place(const std::string& name) const {
@@ -110,38 +123,67 @@ class Looks {
   std::vector<std::string> names_, colors_;
 };
 
-std::string panel_commands(const PlotPanel& panel, std::size_t index, const Looks& looks) {
-  const auto& [model, curves] = panel;
+// What a curve is called in the key: an exact size has no height, so it is told.
+std::string title_of(const CurveSeries& curve, const RateCurve& envelope) {
+  const std::optional<double> exact = exact_from(envelope);
+  return gnuplot_quoted(curve.name + (exact ? fmt::format(" (exact from {:.0f} bytes)", *exact) : std::string()));
+}
+
+// Sizes from which on curves are exact, as dotted lines over all heights.
+std::string exact_sizes(const std::vector<CurveSeries>& curves, const Looks& looks) {
+  std::string commands = "unset arrow\n";
+  for (const CurveSeries& curve : curves)
+    if (const std::optional<double> bytes = exact_from(envelope_of(curve.points)))
+      commands += fmt::format("set arrow from {0:.0f}, graph 0 to {0:.0f}, graph 1 nohead dt 3 lw 2 lc rgb '{1}'\n",
+                              *bytes, looks.color(curve.name));
+  return commands;
+}
+
+// The curves of a panel and its ceilings, for `plot`. A curve without finite PSNR has its place in the key alone.
+std::string panel_lines(const std::vector<CurveSeries>& curves, std::size_t index, const Looks& looks) {
   std::string lines;
-  for (std::size_t m = 0; m < curves.size(); ++m)
-    lines += fmt::format("{}{} using 1:2 {} title {}", m ? ", \\\n     " : "", data_name(index, m),
-                         looks.curve(curves[m].name), gnuplot_quoted(curves[m].name));
+  for (std::size_t m = 0; m < curves.size(); ++m) {
+    const RateCurve envelope = envelope_of(curves[m].points);
+    const std::string data = finite_part(envelope).empty() ? "NaN" : data_name(index, m) + " using 1:2";
+    lines += fmt::format("{}{} {} title {}", m ? ", \\\n     " : "", data, looks.curve(curves[m].name),
+                         title_of(curves[m], envelope));
+  }
   const bool few = curves.size() <= kFewCurves;
   std::set<double> ceilings;
   for (const CurveSeries& curve : curves)  // those coded from one remesh share theirs
-    if (const double ceiling = ceiling_db(curve.points); ceiling > 0.0 && ceilings.insert(ceiling).second)
-      lines += fmt::format(", \\\n     {:.4f} {} {}", ceiling, looks.ceiling(curve.name),
+    if (const auto ceiling = drawn_ceiling(curve); ceiling && ceilings.insert(*ceiling).second)
+      lines += fmt::format(", \\\n     {:.4f} {} {}", *ceiling, looks.ceiling(curve.name),
                            few ? "title " + gnuplot_quoted(curve.name + " remesh (ceiling)") : "notitle");
+  return lines;
+}
+
+std::string panel_commands(const PlotPanel& panel, std::size_t index, const Looks& looks) {
+  const auto& [model, curves] = panel;
   const auto [low, high] = byte_range(curves);
-  return fmt::format(
-      "set title {} noenhanced\nset xtics ({})\nset xrange [{:.0f}:{:.0f}]\nset yrange [*:{}]\nplot {}\n",
-      gnuplot_quoted(model), byte_tics(low, high), low, high, highest_shown(curves), lines);
+  return exact_sizes(curves, looks) +
+         fmt::format("set title {} noenhanced\nset xtics ({})\nset xrange [{:.0f}:{:.0f}]\nset yrange {}\nplot {}\n",
+                     gnuplot_quoted(model), byte_tics(low, high), low, high, heights(curves),
+                     panel_lines(curves, index, looks));
 }
 
 // Panels side by side and one key for all of them at the right.
 std::string panels_with_key(const std::vector<PlotPanel>& panels, const Looks& looks) {
   const double width = kPanelWidth * static_cast<double>(panels.size()) + kKeyWidth;
   std::string commands = "set multiplot\nunset key\n";
-  bool ceilings = false;
+  bool ceilings = false, exact = false;
   for (std::size_t i = 0; i < panels.size(); ++i) {
     commands += fmt::format("set origin {:.5f},0\nset size {:.5f},1\n{}", i * kPanelWidth / width, kPanelWidth / width,
                             panel_commands(panels[i], i, looks));
-    for (const CurveSeries& curve : panels[i].second) ceilings = ceilings || ceiling_db(curve.points) > 0.0;
+    for (const CurveSeries& curve : panels[i].second) {
+      ceilings = ceilings || drawn_ceiling(curve);
+      exact = exact || exact_from(envelope_of(curve.points));
+    }
   }
   std::string entries;
   for (const std::string& name : looks.names())
     entries += fmt::format("{}NaN {} title {}", entries.empty() ? "" : ", ", looks.curve(name), gnuplot_quoted(name));
   if (ceilings) entries += ", NaN with lines dt 2 lw 1 lc rgb '#555555' title 'dashed: remesh (ceiling)'";
+  if (exact) entries += ", NaN with lines dt 3 lw 2 lc rgb '#555555' title 'dotted: exact from that size on'";
   // A plot of nothing holds the key.
   return commands +
          fmt::format("set origin {:.5f},0\nset size {:.5f},1\n", 1.0 - kKeyWidth / width, kKeyWidth / width) +

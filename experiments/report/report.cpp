@@ -11,6 +11,7 @@
 #include "experiments/cells/cell_options.h"
 #include "experiments/curve/curve_csv.h"
 #include "experiments/curve/summary.h"
+#include "experiments/output/decibels.h"
 #include "experiments/output/quoting.h"
 #include "experiments/report/page.h"
 #include "experiments/report/run_figures.h"
@@ -45,7 +46,7 @@ class Report {
   Report(const std::string& run_folder, std::string folder, const ReportOptions& options, Progress& progress)
       : run_(read_run(run_folder, options.recipe)), folder_(std::move(folder)), options_(options), progress_(progress) {
     result_.findings = findings(run_);
-    std::filesystem::create_directories(folder_);
+    make_folder(folder_);
   }
 
   ReportResult make() {
@@ -98,7 +99,7 @@ class Report {
     for (const StoredModel& model : run_.models) {
       if (model.path.empty()) continue;
       for (const StoredCell* cell : viewed_cells(model)) {
-        std::filesystem::create_directories(folder_ + "/views");
+        make_folder(folder_ + "/views");
         const std::string name = fmt::format("views/{}.js", views_.size());
         Progress named = progress_.within(model.name + ", " + cell->label);
         write_text(folder_ + "/" + name, fmt::format("gspView(\"{}\", {});\n", name, view_json(model, *cell, named)));
@@ -121,20 +122,20 @@ class Report {
     const Comparison* comparison = result_.findings.comparison(cell.model, cell.label);
     const auto view = views_.find({cell.model, cell.label});
     const bool anchor = is_anchor(cell.options.method);
-    return {{"label", cell.label},
-            {"method", cell.options.method},
-            {"mode", stream_mode_name(cell.options.mode)},
-            {"ceiling_db", optional(cell.number("ceiling_db"))},
-            {"base_vertices", optional(cell.number("base_vertices"))},
-            {"level", optional(cell.number("level"))},
-            {"positions", positions.empty() ? Json() : Json(positions)},
-            {"remesh_error", optional(cell.number("remesh_error"))},
-            {"paper_error", anchor ? Json() : optional(run_.paper_error(cell.model))},
-            {"bytes_at", bytes_at},
-            {"bd_rate", comparison ? optional(comparison->bd_rate) : Json()},
-            {"bd_note", comparison ? comparison->note : ""},
-            {"view", view == views_.end() ? Json() : Json(view->second)},
-            {"points", points}};
+    Json curve = {
+        {"label", cell.label}, {"method", cell.options.method}, {"mode", stream_mode_name(cell.options.mode)}};
+    put_db(curve, "ceiling_db", ceiling_db(cell.points()));
+    curve.update({{"base_vertices", optional(cell.number("base_vertices"))},
+                  {"level", optional(cell.number("level"))},
+                  {"positions", positions.empty() ? Json() : Json(positions)},
+                  {"remesh_error", optional(cell.number("remesh_error"))},
+                  {"paper_error", anchor ? Json() : optional(run_.paper_error(cell.model))},
+                  {"bytes_at", bytes_at},
+                  {"bd_rate", comparison ? optional(comparison->bd_rate) : Json()},
+                  {"bd_note", comparison ? comparison->note : ""},
+                  {"view", view == views_.end() ? Json() : Json(view->second)},
+                  {"points", points}});
+    return curve;
   }
 
   Json model_json(const StoredModel& model) const {

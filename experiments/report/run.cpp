@@ -1,7 +1,6 @@
 #include "experiments/report/run.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -23,8 +22,7 @@ StageResult remesh_stage(const CurvePoint& point) {
   stage.numbers = {{"base_vertices", point.base_vertices},
                    {"base_faces", point.base_faces},
                    {"level", point.level},
-                   {"remesh_error", point.remesh_error},
-                   {"ceiling_db", -20.0 * std::log10(point.remesh_error)}};
+                   {"remesh_error", point.remesh_error}};
   return stage;
 }
 
@@ -44,7 +42,7 @@ StoredCell first_of(const CurvePoint& point, const fs::path& folder) {
     if (kind == remesh_kind_name(k)) cell.options.remesh.kind = k;
   if (point.coder == coder_name(StreamMode::Fixed)) cell.options.mode = StreamMode::Fixed;
   cell.status = CellStatus::Done;
-  if (point.remesh_error > 0.0) {
+  if (ceiling_db({point})) {
     StageResult map;
     map.kind = StageKind::Parameterize;
     const fs::path omega = folder / (file_stem(point.model) + "-omega.csv");

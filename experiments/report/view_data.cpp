@@ -12,6 +12,7 @@
 #include "experiments/figures/map_measures.h"
 #include "experiments/figures/paint.h"
 #include "experiments/figures/remesh_map.h"
+#include "experiments/output/decibels.h"
 #include "experiments/output/quoting.h"
 #include "mesh/io.h"
 #include "mesh/read_file.h"
@@ -150,11 +151,12 @@ Json size_json(const CurvePoint& point, const Mesh& decoded, const SurfaceTree& 
   std::vector<Weighted> weighted;
   for (double d : distances) weighted.push_back({d, 1.0});
   const double p95 = statistics(std::move(weighted)).p95;
-  return {{"bytes", point.bytes},
-          {"psnr_db", point.psnr_db},
-          {"positions", positions_text(decoded.positions, box)},
-          {"distance", base64(shares(distances, {0.0, p95}))},
-          {"distance_scale", p95}};
+  Json size = {{"bytes", point.bytes}};
+  put_db(size, "psnr_db", point.psnr_db);
+  size.update({{"positions", positions_text(decoded.positions, box)},
+               {"distance", base64(shares(distances, {0.0, p95}))},
+               {"distance_scale", p95}});
+  return size;
 }
 
 }  // namespace

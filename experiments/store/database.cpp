@@ -2,14 +2,33 @@
 
 #include <sqlite3.h>
 
+#include <cctype>
+#include <cstdlib>
+
 #include "mesh/error.h"
 
 namespace gsp {
 
 namespace {
 
+namespace fs = std::filesystem;
+
+// A path in SQLite's URIs, where %, ? and # have a meaning.
+std::string uri_path(const std::string& path) {
+  std::string uri;
+  for (unsigned char c : path) {
+    constexpr const char* kDigits = "0123456789ABCDEF";
+    if (std::isalnum(c) || c == '/' || c == '.' || c == '-' || c == '_')
+      uri += static_cast<char>(c);
+    else
+      uri += {'%', kDigits[c >> 4], kDigits[c & 15]};
+  }
+  return uri;
+}
+
 [[noreturn]] void fail(sqlite3* database, int status) {
   const std::string why = database ? sqlite3_errmsg(database) : sqlite3_errstr(status);
+  const bool reading = database && sqlite3_db_readonly(database, "main") == 1;
   switch (status & 0xff) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
@@ -17,7 +36,8 @@ namespace {
     case SQLITE_FULL:
     case SQLITE_IOERR:
     case SQLITE_PERM:
-      throw Error(Cause::CannotWrite, "the results database cannot be written: " + why);
+      throw reading ? Error(Cause::CannotOpen, "the results database cannot be read: " + why)
+                    : Error(Cause::CannotWrite, "the results database cannot be written: " + why);
     case SQLITE_CANTOPEN:
       throw Error(Cause::CannotOpen, "the results database cannot be opened: " + why);
     default:
@@ -74,19 +94,74 @@ std::int64_t Statement::integer(int column) const { return sqlite3_column_int64(
 
 double Statement::real(int column) const { return sqlite3_column_double(statement_, column); }
 
-Database::Database(const std::string& path, bool create) {
-  const int flags = SQLITE_OPEN_READWRITE | (create ? SQLITE_OPEN_CREATE : 0);
-  const int status = sqlite3_open_v2(path.c_str(), &handle_, flags, nullptr);
+Database::Database(const std::string& path, Access access) : path_(path) {
+  if (access == Access::Read)
+    open_to_read(path);
+  else
+    open(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+}
+
+Database::~Database() {
+  sqlite3_close(handle_);
+  std::error_code ignored;
+  if (!copy_.empty()) fs::remove_all(copy_, ignored);
+}
+
+void Database::open(const std::string& name, int flags) {
+  const int status = sqlite3_open_v2(name.c_str(), &handle_, flags, nullptr);
   if (status != SQLITE_OK) {
     const std::string why = sqlite3_errstr(status);
     sqlite3_close(handle_);
-    throw Error(Cause::CannotOpen, "cannot open " + path + ": " + why);
+    handle_ = nullptr;
+    throw Error(Cause::CannotOpen, "cannot open " + path_ + ": " + why);
   }
   constexpr int kPatienceMilliseconds = 20000;
   sqlite3_busy_timeout(handle_, kPatienceMilliseconds);
 }
 
-Database::~Database() { sqlite3_close(handle_); }
+void Database::open_to_read(const std::string& path) {
+  std::error_code none;
+  const auto log = fs::file_size(path + "-wal", none);
+  if (none || log == 0) {
+    // All of it is in the file. Locks, which would be two more files beside it, are left out.
+    unlocked_ = stamp_of(path);
+    open("file:" + uri_path(path) + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
+    return;
+  }
+  // A sweep is at work, or was killed: what it wrote last stands in the log.
+  open(path, SQLITE_OPEN_READONLY);
+  if (sqlite3_exec(handle_, "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr) == SQLITE_OK) return;
+  const int status = sqlite3_errcode(handle_) & 0xff;
+  if (status == SQLITE_CANTOPEN || status == SQLITE_READONLY || status == SQLITE_IOERR || status == SQLITE_PERM)
+    open_copy(path);
+}
+
+void Database::open_copy(const std::string& path) {
+  sqlite3_close(handle_);
+  handle_ = nullptr;
+  std::string folder = (fs::temp_directory_path() / "gsp-store-XXXXXX").string();
+  if (!::mkdtemp(folder.data())) throw Error(Cause::CannotOpen, "cannot make " + folder + " to read " + path + " in");
+  copy_ = folder;
+  std::error_code failed;
+  for (const char* part : {"", "-wal"})
+    if (!failed) fs::copy_file(path + part, copy_ + "/results.sqlite" + part, failed);
+  // A copy has the permissions of what it is of, and a log is read by writing.
+  for (const char* part : {"", "-wal"})
+    if (!failed)
+      fs::permissions(copy_ + "/results.sqlite" + part, fs::perms::owner_write, fs::perm_options::add, failed);
+  if (failed) throw Error(Cause::CannotOpen, "cannot copy " + path + " to " + copy_ + ": " + failed.message());
+  open(copy_ + "/results.sqlite", SQLITE_OPEN_READWRITE);
+}
+
+Database::Stamp Database::stamp_of(const std::string& path) {
+  std::error_code failed;
+  Stamp stamp;
+  stamp.time = fs::last_write_time(path, failed);
+  stamp.size = fs::file_size(path, failed);
+  return stamp;
+}
+
+bool Database::stale() const { return unlocked_ && !(stamp_of(path_) == *unlocked_); }
 
 void Database::execute(const std::string& sql) {
   const int status = sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr);

@@ -1,10 +1,11 @@
 #include "experiments/store/json_file.h"
 
-#include <cmath>
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "experiments/curve/point_fields.h"
+#include "experiments/output/decibels.h"
 #include "mesh/atomic_file.h"
 #include "mesh/error.h"
 #include "mesh/read_file.h"
@@ -14,13 +15,6 @@ namespace gsp {
 namespace {
 
 using OrderedJson = nlohmann::ordered_json;
-
-OrderedJson json_of(double value) { return std::isfinite(value) ? OrderedJson(value) : OrderedJson(); }
-
-template <class Value>
-OrderedJson json_of(const Value& value) {
-  return value;
-}
 
 template <class Value>
 void read_value(const OrderedJson& json, Value& value) {
@@ -40,17 +34,23 @@ void write_json(const std::string& path, const OrderedJson& json) {
 }
 
 OrderedJson read_json(const std::string& path) {
+  const std::string text = read_file(path);
   try {
-    return OrderedJson::parse(read_file(path));
-  } catch (const OrderedJson::exception& error) {
-    throw Error(Cause::Malformed, path + ": " + error.what());
+    return OrderedJson::parse(text);
+  } catch (const OrderedJson::parse_error& error) {
+    const std::size_t read = std::min(error.byte, text.size());
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(read), '\n');
+    throw Error(Cause::Malformed, path + " is no JSON", Element::Line, line);
   }
 }
 
 OrderedJson measured_json(const CurvePoint& point) {
   OrderedJson json = OrderedJson::object();
   for (const PointField& field : measured_fields())
-    std::visit([&](auto member) { json[field.name] = json_of(point.*member); }, field.member);
+    if (const auto* member = std::get_if<double CurvePoint::*>(&field.member))
+      put_db(json, field.name, point.*(*member));
+    else
+      std::visit([&](auto member) { json[field.name] = point.*member; }, field.member);
   return json;
 }
 

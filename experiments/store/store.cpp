@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "experiments/cells/models.h"
 #include "experiments/curve/point_fields.h"
 #include "experiments/curve/stages.h"
 #include "experiments/store/database.h"
+#include "mesh/atomic_file.h"
 
 namespace gsp {
 
@@ -148,8 +150,10 @@ std::vector<StoredCell> stored_cells(const Plan& plan, const std::map<std::strin
     cell.model = planned.model;
     cell.label = planned.label;
     cell.options = planned.options;
-    cell.cause = models[planned.model]->cause;
-    cell.failure = models[planned.model]->failure;
+    const StoredModel& model = *models[planned.model];
+    if (!is_shape(model.source)) cell.surface = model.surface_key;
+    cell.cause = model.cause;
+    cell.failure = model.failure;
     for (const auto& [kind, key] : planned.keys) {
       const auto found = results.find(key);
       if (found == results.end()) continue;
@@ -170,19 +174,24 @@ std::vector<StoredCell> stored_cells(const Plan& plan, const std::map<std::strin
 }
 
 struct Store::Impl {
-  Database database;
+  std::string path;
+  bool create;
+  std::unique_ptr<Database> database;
 
-  explicit Impl(const std::string& path, bool create) : database(path, create) {
-    const auto version = database.prepare("PRAGMA user_version");
+  Impl(std::string file, bool make) : path(std::move(file)), create(make) { open(); }
+
+  void open() {
+    database = std::make_unique<Database>(path, create ? Access::Write : Access::Read);
+    const auto version = database->prepare("PRAGMA user_version");
     version->step();
     const auto found = version->integer(0);
     version->restart();
     if (found == 0 && create) {
-      database.execute("PRAGMA journal_mode=WAL");
-      Transaction transaction(database);
-      database.execute(kSchema);
-      database.execute(point_schema());
-      database.execute("PRAGMA user_version=" + std::to_string(kSchemaVersion));
+      database->execute("PRAGMA journal_mode=WAL");
+      Transaction transaction(*database);
+      database->execute(kSchema);
+      database->execute(point_schema());
+      database->execute("PRAGMA user_version=" + std::to_string(kSchemaVersion));
       transaction.commit();
     } else if (found != kSchemaVersion) {
       throw Error(Cause::Malformed, path + " has schema " + std::to_string(found) + ", this gsp reads schema " +
@@ -190,12 +199,27 @@ struct Store::Impl {
     }
     // After a crash of the program everything committed is there; after one of the machine the last results may be
     // gone, and are computed again.
-    database.execute("PRAGMA synchronous=NORMAL");
+    if (create) database->execute("PRAGMA synchronous=NORMAL");
+  }
+
+  std::vector<std::string> recipes() const;
+  Plan plan(const std::string& recipe) const;
+  std::map<std::string, StageResult> results() const;
+
+  // What `read` finds while nobody writes: where a sweep wrote in between, it is read again.
+  template <class Read>
+  auto consistent(const Read& read) {
+    for (;; open()) try {
+        auto found = read();
+        if (!database->stale()) return found;
+      } catch (const Error&) {
+        if (!database->stale()) throw;
+      }
   }
 
   std::string recipe_or_latest(const std::string& name) const {
-    const auto row = database.prepare(name.empty() ? "SELECT name FROM recipe ORDER BY turn DESC LIMIT 1"
-                                                   : "SELECT name FROM recipe WHERE name = ?");
+    const auto row = database->prepare(name.empty() ? "SELECT name FROM recipe ORDER BY turn DESC LIMIT 1"
+                                                    : "SELECT name FROM recipe WHERE name = ?");
     if (!name.empty()) row->bind(name);
     if (!row->step())
       throw Error(Cause::BadOption, name.empty() ? "the store holds no recipe" : "the store holds no recipe " + name);
@@ -203,25 +227,25 @@ struct Store::Impl {
   }
 
   void make_latest(const std::string& recipe) {
-    const auto latest = database.prepare("SELECT name, turn FROM recipe ORDER BY turn DESC LIMIT 1");
+    const auto latest = database->prepare("SELECT name, turn FROM recipe ORDER BY turn DESC LIMIT 1");
     std::int64_t turn = 1;
     if (latest->step()) {
       if (latest->text(0) == recipe) return;
       turn = latest->integer(1) + 1;
     }
-    database.prepare("INSERT OR REPLACE INTO recipe VALUES(?,?)")->run(recipe, turn);
+    database->prepare("INSERT OR REPLACE INTO recipe VALUES(?,?)")->run(recipe, turn);
   }
 
   void put_one(const StageResult& r) {
-    database.prepare("INSERT OR REPLACE INTO stage VALUES(?,?,?,?,?,?,?,?,?,?,?)")
+    database->prepare("INSERT OR REPLACE INTO stage VALUES(?,?,?,?,?,?,?,?,?,?,?)")
         ->run(r.key, std::string(stage_name(r.kind)), r.input, r.options, r.version, r.cause, r.failure,
               SortedJson(r.numbers).dump(), r.seconds, r.cpu_seconds, r.reference_seconds);
     forget_details(r.key);
-    const auto artefact = database.prepare("INSERT INTO artefact VALUES(?,?,?)");
+    const auto artefact = database->prepare("INSERT INTO artefact VALUES(?,?,?)");
     for (const auto& [role, path] : r.artefacts) artefact->run(r.key, role, path);
     std::string places = "?,?";
     for (std::size_t i = 0; i < measured_fields().size(); ++i) places += ",?";
-    const auto point = database.prepare(fmt::format("INSERT INTO point({}) VALUES({})", point_columns(), places));
+    const auto point = database->prepare(fmt::format("INSERT INTO point({}) VALUES({})", point_columns(), places));
     std::int64_t position = 0;
     for (const CurvePoint& p : r.points) {
       point->bind(r.key).bind(position++);
@@ -233,18 +257,16 @@ struct Store::Impl {
   }
 
   void forget_details(const std::string& key) {
-    database.prepare("DELETE FROM artefact WHERE stage = ?")->run(key);
-    database.prepare("DELETE FROM point WHERE stage = ?")->run(key);
+    database->prepare("DELETE FROM artefact WHERE stage = ?")->run(key);
+    database->prepare("DELETE FROM point WHERE stage = ?")->run(key);
   }
 };
 
 Store::Store(std::string folder, bool create) : folder_(std::move(folder)) {
   const std::string path = folder_ + "/results.sqlite";
   if (create) {
-    std::error_code failed;
-    std::filesystem::create_directories(folder_ + "/artefacts", failed);
-    if (failed) throw Error(Cause::CannotWrite, "cannot make " + folder_ + ": " + failed.message());
-  } else if (!std::filesystem::is_regular_file(path)) {
+    make_folder(folder_ + "/artefacts");
+  } else if (std::error_code failed; !std::filesystem::is_regular_file(path, failed)) {
     throw Error(Cause::CannotOpen, folder_ + " holds no results.sqlite: gsp sweep makes such a folder");
   }
   impl_ = std::make_unique<Impl>(path, create);
@@ -257,16 +279,28 @@ Store::Store(Store&&) noexcept = default;
 Store& Store::operator=(Store&&) noexcept = default;
 
 std::vector<std::string> Store::recipes() const {
+  return impl_->consistent([&] { return impl_->recipes(); });
+}
+
+Plan Store::plan(const std::string& recipe) const {
+  return impl_->consistent([&] { return impl_->plan(recipe); });
+}
+
+std::map<std::string, StageResult> Store::results() const {
+  return impl_->consistent([&] { return impl_->results(); });
+}
+
+std::vector<std::string> Store::Impl::recipes() const {
   std::vector<std::string> names;
-  const auto row = impl_->database.prepare("SELECT name FROM recipe ORDER BY turn DESC");
+  const auto row = database->prepare("SELECT name FROM recipe ORDER BY turn DESC");
   while (row->step()) names.push_back(row->text(0));
   return names;
 }
 
-Plan Store::plan(const std::string& recipe) const {
+Plan Store::Impl::plan(const std::string& recipe) const {
   Plan plan;
-  plan.recipe = impl_->recipe_or_latest(recipe);
-  const auto model = impl_->database.prepare(
+  plan.recipe = recipe_or_latest(recipe);
+  const auto model = database->prepare(
       "SELECT name, source, surface, path, vertices, faces, cause, failure FROM model WHERE recipe = ? ORDER BY "
       "position");
   model->bind(plan.recipe);
@@ -274,7 +308,7 @@ Plan Store::plan(const std::string& recipe) const {
     plan.models.push_back({model->text(0), model->text(1), model->text(2), model->text(3),
                            static_cast<int>(model->integer(4)), static_cast<int>(model->integer(5)), model->text(6),
                            model->text(7)});
-  const auto row = impl_->database.prepare(
+  const auto row = database->prepare(
       "SELECT model, label, options, parameterize, remesh, encode, measure FROM cell WHERE recipe = ? ORDER BY "
       "position");
   row->bind(plan.recipe);
@@ -300,9 +334,9 @@ std::vector<StoredCell> Store::cells(const std::string& recipe) const {
   return stored_cells(plan(recipe), results(), folder_);
 }
 
-std::map<std::string, StageResult> Store::results() const {
+std::map<std::string, StageResult> Store::Impl::results() const {
   std::map<std::string, StageResult> results;
-  const auto stage = impl_->database.prepare(
+  const auto stage = database->prepare(
       "SELECT key, kind, input, options, version, cause, failure, numbers, seconds, cpu_seconds, reference_seconds "
       "FROM "
       "stage");
@@ -322,25 +356,24 @@ std::map<std::string, StageResult> Store::results() const {
     r.cpu_seconds = stage->real(9);
     r.reference_seconds = stage->real(10);
   }
-  const auto artefact = impl_->database.prepare("SELECT stage, role, path FROM artefact");
+  const auto artefact = database->prepare("SELECT stage, role, path FROM artefact");
   while (artefact->step()) results[artefact->text(0)].artefacts[artefact->text(1)] = artefact->text(2);
-  const auto point =
-      impl_->database.prepare(fmt::format("SELECT {} FROM point ORDER BY stage, position", point_columns()));
+  const auto point = database->prepare(fmt::format("SELECT {} FROM point ORDER BY stage, position", point_columns()));
   while (point->step()) results[point->text(0)].points.push_back(read_point(*point));
   return results;
 }
 
 void Store::replace_plan(const Plan& plan) {
-  Transaction transaction(impl_->database);
+  Transaction transaction(*impl_->database);
   impl_->make_latest(plan.recipe);
-  impl_->database.prepare("DELETE FROM model WHERE recipe = ?")->run(plan.recipe);
-  impl_->database.prepare("DELETE FROM cell WHERE recipe = ?")->run(plan.recipe);
-  const auto model = impl_->database.prepare("INSERT INTO model VALUES(?,?,?,?,?,?,?,?,?,?)");
+  impl_->database->prepare("DELETE FROM model WHERE recipe = ?")->run(plan.recipe);
+  impl_->database->prepare("DELETE FROM cell WHERE recipe = ?")->run(plan.recipe);
+  const auto model = impl_->database->prepare("INSERT INTO model VALUES(?,?,?,?,?,?,?,?,?,?)");
   std::int64_t position = 0;
   for (const StoredModel& m : plan.models)
     model->run(plan.recipe, position++, m.name, m.source, m.surface_key, m.path, std::int64_t{m.vertices},
                std::int64_t{m.faces}, m.cause, m.failure);
-  const auto cell = impl_->database.prepare("INSERT INTO cell VALUES(?,?,?,?,?,?,?,?,?)");
+  const auto cell = impl_->database->prepare("INSERT INTO cell VALUES(?,?,?,?,?,?,?,?,?)");
   position = 0;
   for (const PlannedCell& c : plan.cells)
     cell->run(plan.recipe, position++, c.model, c.label, options_json(c.options), key_of(c, StageKind::Parameterize),
@@ -349,14 +382,14 @@ void Store::replace_plan(const Plan& plan) {
 }
 
 void Store::put(const std::vector<StageResult>& results) {
-  Transaction transaction(impl_->database);
+  Transaction transaction(*impl_->database);
   for (const StageResult& result : results) impl_->put_one(result);
   transaction.commit();
 }
 
 void Store::erase(const std::vector<std::string>& keys) {
-  Transaction transaction(impl_->database);
-  const auto stage = impl_->database.prepare("DELETE FROM stage WHERE key = ?");
+  Transaction transaction(*impl_->database);
+  const auto stage = impl_->database->prepare("DELETE FROM stage WHERE key = ?");
   for (const std::string& key : keys) {
     stage->run(key);
     impl_->forget_details(key);

@@ -26,7 +26,7 @@ struct StageResult {
   /// anisotropy_p95, area_symmetric_mean, sorkine_mean, l2_stretch; of smoothness.h smoothness_inside,
   /// smoothness_across, smoothness_at_corner (means) and, where it has a value, smoothness_across_over_inside. Remesh:
   /// level, remesh_faces, remesh_error (larger RMS over the input's diagonal), remesh_forward, remesh_backward,
-  /// remesh_hausdorff, ceiling_db (-20 log10 of remesh_error).
+  /// remesh_hausdorff, ceiling_db (-20 log10 of remesh_error; none where that is 0).
   /// Encode: stream_bytes, header_bytes, connectivity_bytes.
   std::map<std::string, double> numbers;
   /// Files by role, relative to the store's folder: "map" (*.param.ply), "omega" (*.csv, figure 5d), "remesh"
@@ -75,9 +75,10 @@ const char* status_name(CellStatus status);
 
 /// One cell of a sweep with everything that is known about it.
 struct StoredCell {
-  int position = 0;   ///< in the recipe's order, from 0
-  std::string model;  ///< name of its StoredModel
-  std::string label;  ///< the method, and the values of those options that vary within it: "gsp gamma=0 mu=1"
+  int position = 0;     ///< in the recipe's order, from 0
+  std::string model;    ///< name of its StoredModel
+  std::string surface;  ///< hash of that surface; empty for a generated one and for one that could not be read
+  std::string label;    ///< the method, and the values of those options that vary within it: "gsp gamma=0 mu=1"
   CellOptions options;
   CellStatus status = CellStatus::Waiting;
   std::string cause, failure;  ///< of the first stage that failed
@@ -108,9 +109,10 @@ std::vector<StoredCell> stored_cells(const Plan& plan, const std::map<std::strin
 /// not be written.
 class Store {
  public:
-  /// Opens what `gsp sweep --store` made. Throws Error(CannotOpen) where there is no store in the folder.
+  /// Opens what `gsp sweep --store` made, to be read: nothing in the folder changes, and it may be one that cannot be
+  /// written. Throws Error(CannotOpen) where there is no store in the folder, or it may not be read.
   static Store open(const std::string& folder);
-  /// The same, made where there is none.
+  /// The same to be written, made where there is none. Only while its `FolderLock` is held.
   static Store create(const std::string& folder);
   ~Store();
   Store(Store&&) noexcept;

@@ -54,7 +54,7 @@ std::string array_script(const std::string& program, std::size_t tasks, std::siz
 
 void submit(const std::vector<Task>& tasks, const std::string& folder, const std::string& program) {
   fs::remove_all(slurm_folder(folder));
-  fs::create_directories(slurm_folder(folder));
+  make_folder(slurm_folder(folder));
   for (std::size_t i = 0; i < tasks.size(); ++i)
     write_task(fmt::format("{}/{}.json", slurm_folder(folder), i), tasks[i]);
   const std::string script = slurm_folder(folder) + "/array.sh";

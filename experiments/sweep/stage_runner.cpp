@@ -39,7 +39,7 @@ class Runner {
   Runner(const std::string& store, const Task& task, const std::function<void(const std::string&)>& begin,
          Progress& progress)
       : store_(store), task_(task), begin_(begin), progress_(progress), done_(task.done) {
-    std::filesystem::create_directories(inbox_folder(store));
+    make_folder(inbox_folder(store));
     forget_lost_artefacts();
   }
 
@@ -218,7 +218,7 @@ class Runner {
       cause = cause_name(error.cause());
       failure = error.what();
     } catch (const std::bad_alloc&) {
-      cause = "out-of-memory";
+      cause = cause_name(Cause::OutOfMemory);
       failure = "not enough memory";
     } catch (const std::exception& error) {
       cause = cause_name(Cause::Internal);

@@ -10,6 +10,7 @@
 #include "experiments/sweep/plan.h"
 #include "experiments/sweep/slurm.h"
 #include "experiments/sweep/worker_pool.h"
+#include "mesh/atomic_file.h"
 #include "mesh/io.h"
 
 namespace gsp {
@@ -35,7 +36,7 @@ void forget_failures(Store& store, const Plan& plan, bool all) {
 void keep_surface(const std::string& folder, const std::string& key, const Mesh& mesh) {
   const std::string path = folder + '/' + surface_path(key);
   if (fs::exists(path)) return;
-  fs::create_directories(fs::path(path).parent_path());
+  make_folder(fs::path(path).parent_path().string());
   write_mesh(path, mesh);
 }
 
@@ -46,8 +47,9 @@ bool SweepResult::failed() const {
 }
 
 SweepResult sweep(const Recipe& recipe, const std::string& folder, const SweepOptions& options, Progress& progress) {
+  make_folder(folder);
+  const FolderLock lock(folder);  // before the database, which two sweeps would make at once
   Store store = Store::create(folder);
-  const FolderLock lock(folder);
   const SlurmState slurm = slurm_state(folder);
   if (slurm.active() && !options.slurm)
     throw Error(Cause::CannotWrite, "Slurm job " + slurm.job + " is at work on " + folder);

@@ -17,6 +17,7 @@
 #include "experiments/sweep/task_list.h"
 #include "experiments/sweep/worker.h"
 #include "experiments/version.h"
+#include "mesh/atomic_file.h"
 #include "mesh/parallel.h"
 
 namespace gsp {
@@ -59,7 +60,7 @@ class Pool {
     // The cores are shared out evenly; results do not depend on the number of threads.
     const int side_by_side = std::max(1, std::min(jobs_, static_cast<int>(waiting_.size())));
     threads_ = std::max(1, cores / side_by_side);
-    fs::create_directories(folder + "/tasks");
+    make_folder(folder + "/tasks");
   }
 
   // Number of stages that ran.

@@ -73,7 +73,7 @@ TEST_CASE("every command that reads a file refuses one that is not there with st
        std::vector<std::vector<std::string>>{{"info", missing},
                                              {"parameterize", missing, "-o", output},
                                              {"remesh", missing, "-o", output},
-                                             {"encode", missing, "-o", output},
+                                             {"encode", missing, "-o", folder.file("output.pgc")},
                                              {"decode", missing, "-o", output},
                                              {"distance", missing, missing},
                                              {"distortion", missing}}) {
@@ -272,6 +272,7 @@ TEST_CASE("curve draws what works, names what fails, and ends with status 1 for 
                            "embedded,fixed", "--json"});
   CAPTURE(ran.err);
   CHECK(ran.status == 1);
+  CHECK(contains(ran.err, "gsp: bad: "));
   const json report = json::parse(ran.out);
   CHECK(report["models"][0]["error"]["cause"].is_string());
   CHECK_FALSE(report["models"][1].contains("error"));
@@ -282,4 +283,14 @@ TEST_CASE("curve draws what works, names what fails, and ends with status 1 for 
   for (const char* name : {"curve.csv", "bumpy.png", "bumpy.svg", "bumpy-omega.csv"})
     CHECK(size_of(to + "/" + name) > 200);
   for (const auto& file : report["files"]) CHECK(std::filesystem::exists(file.get<std::string>()));
+}
+
+TEST_CASE("equal surfaces have an infinite PSNR: null in JSON, with the reason") {
+  const TemporaryFolder folder;
+  const std::string path = write_bumpy(folder);
+  const json report = json::parse(gsp_run({"distance", path, path, "--samples", "2000", "--mpeg", "--json"}).out);
+  CHECK(report["psnr_db"].is_null());
+  CHECK(report["psnr_db_reason"].get<std::string>().find("exactly") != std::string::npos);
+  CHECK(report["mpeg_d1"]["db"].is_null());
+  CHECK(report["mpeg_d2"]["db_reason"].is_string());
 }

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <fstream>
 #include <limits>
 
 #include "mesh/error.h"
@@ -22,7 +23,8 @@ Baseline sample_run() {
                     .numbers = {},
                     .times = {},
                     .curve = {},
-                    .ceiling_db = 95.0};
+                    .ceiling_db = 95.0,
+                    .surface = {}};
     for (int octave = 0; octave < 9; ++octave) row.curve.push_back({256.0 * std::exp2(octave), 40.0 + 5.0 * octave});
     row.numbers = {{"flipped_faces", 0}, {"level", 4}, {"psnr_db at 512 bytes", 45.0}, {"remesh_error", 1e-4}};
     row.times = {{"time parameterize", 100.0}};
@@ -119,4 +121,95 @@ TEST_CASE("a curve that needs more bytes is a BD-rate regression by just that sh
   });
   CHECK_FALSE(apart.passed());
   CHECK(apart.moved.front().after.find("do not overlap") != std::string::npos);
+}
+
+TEST_CASE("infinite numbers are compared as such, also by way of a file") {
+  const double exact = std::numeric_limits<double>::infinity();
+  const auto with = [](double psnr, double last) {
+    Baseline run = sample_run();
+    run.rows.front().numbers["psnr_db at 512 bytes"] = psnr;
+    run.rows.front().curve.back().psnr_db = last;
+    run.rows.front().ceiling_db = last;
+    return run;
+  };
+  const TemporaryFolder folder;
+  const Baseline infinite = with(exact, exact);
+  write_baseline(folder.file("b.json"), infinite);
+  const Baseline read = read_baseline(folder.file("b.json"));
+  CHECK(read.rows.front().numbers.at("psnr_db at 512 bytes") == exact);
+  CHECK(read.rows.front().curve.back().psnr_db == exact);
+  CHECK(*read.rows.front().ceiling_db == exact);
+  const CheckResult same = check(read, infinite, {});
+  CHECK(same.passed());
+  CHECK(same.moved.empty());
+  const CheckResult worse = check(infinite, sample_run(), {});
+  CHECK_FALSE(worse.passed());
+  REQUIRE_FALSE(worse.moved.empty());
+  CHECK(worse.moved.front().what == "psnr_db at 512 bytes");
+  CHECK(worse.moved.front().before == "exact");
+  CHECK(check(sample_run(), infinite, {}).passed());
+}
+
+TEST_CASE("a check that compares no number fails, and says so in JUnit too") {
+  Baseline nothing = sample_run();
+  for (BaselineRow& row : nothing.rows) {
+    row.numbers.clear();
+    row.times.clear();
+    row.curve.clear();
+  }
+  const CheckResult result = check(nothing, nothing, {});
+  CHECK(result.compared == 0);
+  CHECK_FALSE(result.passed());
+  CHECK(result.moved.front().what == "numbers compared");
+  CHECK(junit_report(result, "smoke").find("tests=\"3\" failures=\"1\"") != std::string::npos);
+  CHECK_FALSE(check(baseline_of("none", {}), sample_run(), {}).passed());
+}
+
+TEST_CASE("a number that the baseline lacks is told, and passes") {
+  const CheckResult more = after([](BaselineRow& row) { row.numbers["l2_stretch"] = 1.1; });
+  CHECK(more.passed());
+  REQUIRE(more.moved.size() == 1);
+  CHECK(more.moved.front().verdict == Verdict::Added);
+}
+
+TEST_CASE("another surface is called that, not a regression of its numbers") {
+  Baseline before = sample_run(), now = sample_run();
+  for (BaselineRow& row : before.rows) row.surface = "abc";
+  for (BaselineRow& row : now.rows) row.surface = "abc";
+  const TemporaryFolder folder;
+  write_baseline(folder.file("b.json"), before);
+  CHECK(check(read_baseline(folder.file("b.json")), now, {}).moved.empty());
+  now.rows.front().surface = "def";
+  now.rows.front().numbers["psnr_db at 512 bytes"] = 20.0;
+  const CheckResult other = check(read_baseline(folder.file("b.json")), now, {});
+  CHECK_FALSE(other.passed());
+  REQUIRE(other.moved.size() == 1);
+  CHECK(other.moved.front().what == "another surface");
+  CHECK(other.moved.front().verdict == Verdict::Changed);
+  // A baseline from before surfaces were noted compares as it did.
+  CHECK_FALSE(check(sample_run(), now, {}).passed());
+  CHECK(check(sample_run(), now, {}).moved.front().what == "psnr_db at 512 bytes");
+}
+
+TEST_CASE("what is no baseline is refused in our words, with the line or the key") {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& text) {
+    std::ofstream(folder.file("b.json")) << text;
+    try {
+      read_baseline(folder.file("b.json"));
+    } catch (const Error& error) {
+      CHECK(error.cause() == Cause::Malformed);
+      CHECK(std::string(error.what()).find("json.exception") == std::string::npos);
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  CHECK(refusal("{\n\"gsp_baseline\": 1,\n!}").find("line 3") != std::string::npos);
+  CHECK(refusal("").find("no JSON") != std::string::npos);
+  CHECK(refusal("[1, 2]").find("gsp_baseline") != std::string::npos);
+  CHECK(refusal("{\"gsp_baseline\": \"x\"}").find("gsp_baseline") != std::string::npos);
+  CHECK(refusal("{\"gsp_baseline\": 1, \"recipe\": \"r\", \"version\": \"v\", \"tolerances\": {}, \"rows\": [{}]}")
+            .find("model") != std::string::npos);
+  CHECK(refusal("{\"gsp_baseline\": 1, \"recipe\": \"r\", \"version\": \"v\", \"tolerances\": [3], \"rows\": {}}") !=
+        "accepted");
 }

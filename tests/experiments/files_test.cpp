@@ -95,7 +95,7 @@ TEST_CASE("budgets hold the header, stay under the stream and end with the whole
   CHECK(byte_budgets({}, 50, 100) == std::vector<std::size_t>{100});
 }
 
-TEST_CASE("an infinite PSNR survives curve.csv and is no point of a curve, nor is the lossless row") {
+TEST_CASE("an infinite PSNR survives curve.csv and ends its curve; the lossless row is on none") {
   const TemporaryFolder folder;
   const double infinite = std::numeric_limits<double>::infinity();
   std::vector<CurvePoint> points = {sample_point("cube", "draco", 100, 60.0),
@@ -106,7 +106,8 @@ TEST_CASE("an infinite PSNR survives curve.csv and is no point of a curve, nor i
   const std::vector<CurvePoint> read = read_curve_csv(folder.file("curve.csv"));
   REQUIRE(read.size() == 3);
   CHECK(read[1].psnr_db == infinite);
-  CHECK(envelope_of(read).size() == 1);
+  CHECK(envelope_of(read).size() == 2);
+  CHECK(*exact_from(envelope_of(read)) == 200);
   const CurveSummary summary = summarize("cube", {{"draco", read}});
   CHECK(summary.methods.at(0).lossless_bytes == 300);
 }
@@ -211,4 +212,22 @@ TEST_CASE("a file whose name looks like a pattern is found, and a pattern withou
   } catch (const Error& error) {
     CHECK(std::string(error.what()).find(std::filesystem::current_path().string()) != std::string::npos);
   }
+}
+
+TEST_CASE("exact points round trip by curve.csv, and curves without any height are drawn") {
+  const TemporaryFolder folder;
+  const double exact = std::numeric_limits<double>::infinity();
+  const std::vector<CurvePoint> points = {sample_point("cube", "gsp", 300, exact),
+                                          sample_point("cube", "draco", 200, exact)};
+  write_curve_csv(folder.file("curve.csv"), points);
+  const std::vector<CurvePoint> read = read_curve_csv(folder.file("curve.csv"));
+  REQUIRE(read.size() == 2);
+  CHECK(read[0].psnr_db == exact);
+  plot(folder.path().string(), "flat", {{"cube", curves_of(points)}});
+  CHECK(read_file(folder.file("flat.svg")).find("exact from 200 bytes") != std::string::npos);
+  plot(folder.path().string(), "both", {{"cube", curves_of(points)}, {"again", curves_of(points)}});
+  std::string text = read_file(folder.file("curve.csv"));
+  text.replace(text.find(",inf,"), 5, ",nan,");
+  std::ofstream(folder.file("curve.csv")) << text;
+  CHECK_THROWS_AS(read_curve_csv(folder.file("curve.csv")), Error);
 }

@@ -24,10 +24,11 @@ TEST_CASE("the upper envelope keeps what no smaller point reaches") {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
   const RateCurve envelope = upper_envelope(
       {{300, 50}, {100, 40}, {200, 39}, {300, 52}, {250, nan}, {400, 52}, {500, 53}, {600, infinite}, {0, 60}});
-  REQUIRE(envelope.size() == 3);
+  REQUIRE(envelope.size() == 4);
   CHECK((envelope[0].bytes == 100 && envelope[0].psnr_db == 40));
   CHECK((envelope[1].bytes == 300 && envelope[1].psnr_db == 52));
   CHECK((envelope[2].bytes == 500 && envelope[2].psnr_db == 53));
+  CHECK((envelope[3].bytes == 600 && envelope[3].psnr_db == infinite));
   CHECK(upper_envelope({}).empty());
 }
 
@@ -90,4 +91,27 @@ TEST_CASE("curves are compared over the bytes that both cover only") {
   CHECK_FALSE(mean_gain(high, low, 5000, 1e9));
   CHECK_FALSE(mean_gain(high, {}, 1, 1e9));
   CHECK_FALSE(mean_gain(high, low, 600, 500));
+}
+
+TEST_CASE("an exact point ends a curve: its size is reached, and nothing is interpolated towards it") {
+  const double exact = std::numeric_limits<double>::infinity();
+  const RateCurve curve = upper_envelope({{2000, exact}, {1000, 50}, {500, 40}, {3000, exact}, {700, std::nan("")}});
+  REQUIRE(curve.size() == 3);
+  CHECK(*exact_from(curve) == 2000);
+  CHECK(finite_part(curve).size() == 2);
+  CHECK(*psnr_at(curve, 1000) == 50);
+  CHECK(*psnr_at(curve, 1999) == 50);
+  CHECK(*psnr_at(curve, 2000) == exact);
+  CHECK(*bytes_at(curve, 45) == Approx(500 * std::sqrt(2.0)));
+  CHECK(*bytes_at(curve, 60) == 2000);
+  const RateCurve other = {{500, 35}, {2500, 35 + 5 * std::log2(5.0)}};
+  const auto gain = mean_gain(curve, other, 0, 1e9);
+  REQUIRE(gain);
+  CHECK(gain->to_bytes == 1000);
+  CHECK(gain->mean_db == Approx(7.5));
+  const RateCurve only = {{100, exact}};
+  CHECK(finite_part(only).empty());
+  CHECK_FALSE(bytes_at(only, 70));  // it starts above: fewer bytes may do
+  CHECK_FALSE(mean_gain(only, other, 0, 1e9));
+  CHECK_FALSE(exact_from(other));
 }

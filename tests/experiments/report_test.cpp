@@ -260,3 +260,21 @@ TEST_CASE("sector discs are valid maps that keep the disc's symmetry") {
   // Six equilateral sectors are flat already.
   CHECK(distortion(relaxed_sector_disc(6, 3)).anisotropy.maximum == Approx(1.0));
 }
+
+TEST_CASE("a curve folder of exact surfaces is reported on") {
+  const TemporaryFolder folder;
+  std::vector<CurvePoint> points = straight_curve("flat", "gsp", 1.0);
+  append(points, straight_curve("flat", "draco", 0.5));
+  for (CurvePoint& point : points) {
+    point.remesh_error = 0.0;
+    point.base_vertices = point.method == "gsp" ? 4 : 0;
+    point.psnr_db = std::numeric_limits<double>::infinity();
+  }
+  write_curve_csv(folder.file("curve.csv"), points);
+  Progress silent;
+  const ReportResult result = make_report(folder.path().string(), folder.file("report"), {}, silent);
+  const std::string page = text_of(result.files.front());
+  CHECK(contains(page, "\"ceiling_db\":null,\"ceiling_db_reason\":\"infinite"));
+  CHECK(contains(page, "\"psnr_db\":null,\"psnr_db_reason\":\"infinite"));
+  CHECK(contains(page, "Exact on flat, without any distance: gsp from 1000 bytes, draco from 500 bytes."));
+}

@@ -1,10 +1,16 @@
 #include "experiments/store/store.h"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "experiments/store/folder_lock.h"
+#include "experiments/sweep/sweep.h"
 #include "temporary_folder.h"
 
 using namespace gsp;
@@ -126,4 +132,101 @@ TEST_CASE("a folder without a store, a damaged one and one of another schema are
   std::ofstream(folder.file("results.sqlite")) << std::string(5000, 'x');
   CHECK_THROWS_AS(Store::open(folder.path().string()), Error);
   CHECK_THROWS_AS(Store::create(folder.path().string()), Error);
+}
+
+namespace {
+
+/// Makes a folder and all in it unwritable for as long as it lives. Root may write all the same, so it is another user
+/// meanwhile.
+class Unwritable {
+ public:
+  explicit Unwritable(const TemporaryFolder& folder) : folder_(folder.path()) {
+    permit(std::filesystem::perm_options::remove);
+    if (::geteuid() == 0) other_ = ::seteuid(65534) == 0;
+  }
+  ~Unwritable() {
+    if (other_ && ::seteuid(0) != 0) std::abort();
+    permit(std::filesystem::perm_options::add);
+  }
+
+ private:
+  void permit(std::filesystem::perm_options how) const {
+    using std::filesystem::perms;
+    const auto write = perms::owner_write | perms::group_write | perms::others_write;
+    std::filesystem::permissions(folder_, how == std::filesystem::perm_options::add ? perms::owner_write : write, how);
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+      std::filesystem::permissions(
+          entry.path(), entry.is_directory() || how == std::filesystem::perm_options::add ? perms::owner_write : write,
+          how);
+  }
+  std::filesystem::path folder_;
+  bool other_ = false;
+};
+
+std::vector<std::string> names_in(const TemporaryFolder& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("a store that cannot be written can be read") {
+  const TemporaryFolder folder;
+  {
+    Store store = Store::create(folder.path().string());
+    store.replace_plan(sample_plan("one"));
+    store.put(shared_stages());
+  }
+  const Unwritable unwritable(folder);
+  const Store store = Store::open(folder.path().string());
+  CHECK(store.recipes() == std::vector<std::string>{"one"});
+  CHECK(store.cells().front().stages.size() == 2);
+}
+
+TEST_CASE("what a killed sweep left in the log is read too, where nothing can be written") {
+  const TemporaryFolder live, dead;
+  Store store = Store::create(live.path().string());
+  store.replace_plan(sample_plan("one"));
+  store.put(shared_stages());
+  // As a kill leaves it: the log is not taken into the file.
+  for (const char* part : {"", "-wal"})
+    std::filesystem::copy_file(live.file("results.sqlite") + part, dead.file("results.sqlite") + part);
+  REQUIRE(std::filesystem::file_size(dead.file("results.sqlite-wal")) > 0);
+  const Unwritable unwritable(dead);
+  CHECK(Store::open(dead.path().string()).cells().front().stages.size() == 2);
+}
+
+TEST_CASE("reading a store leaves no file in it, and follows a sweep that writes") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path().string();
+  {
+    Store store = Store::create(path);
+    store.replace_plan(sample_plan("one"));
+  }
+  const std::vector<std::string> before = names_in(folder);
+  const Store reader = Store::open(path);
+  CHECK(reader.cells().front().stages.empty());
+  CHECK(names_in(folder) == before);
+  {
+    Store writer = Store::create(path);
+    writer.put(shared_stages());
+  }
+  CHECK(reader.cells().front().stages.size() == 2);
+  CHECK(names_in(folder) == before);
+}
+
+TEST_CASE("the lock is asked for without taking it, and comes before the database") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path().string();
+  CHECK_FALSE(FolderLock::held(path));
+  const auto lock = std::make_unique<FolderLock>(path);
+  CHECK(FolderLock::held(path));
+  CHECK_THROWS_AS(FolderLock(path), Error);
+  Progress silent;
+  Recipe recipe;
+  recipe.name = "none";
+  CHECK_THROWS_AS(sweep(recipe, path, {}, silent), Error);
+  CHECK_FALSE(std::filesystem::exists(folder.file("results.sqlite")));
 }

@@ -55,7 +55,7 @@ TEST_CASE("a summary gives back the gain, the range and the ratio that the curve
 
   const MethodSummary& draco = summary.methods[2];
   CHECK(draco.gain->mean_db == Approx(8.0));
-  CHECK(draco.ceiling_db == 0.0);
+  CHECK_FALSE(draco.ceiling_db);
   CHECK(draco.positions.empty());
 }
 
@@ -104,4 +104,33 @@ TEST_CASE("the table names failures, means and the definition of its numbers") {
                            "gsp over maps-smoothed: +3.00 dB (1 of 2 models), BD-rate -34.0% (1 of 2 models)",
                            "PSNR = 20 log10", "ceiling:", "  sampled  "})
     CHECK(text.find(part) != std::string::npos);
+}
+
+TEST_CASE("an exact remesh has an infinite ceiling and an exact curve no BD-rate, both said") {
+  CurvePoint point;
+  point.model = "cube";
+  point.method = "gsp";
+  point.base_vertices = 8;
+  point.bytes = 300;
+  point.psnr_db = std::numeric_limits<double>::infinity();
+  CurvePoint anchor = point;
+  anchor.method = "draco";
+  anchor.base_vertices = 0;
+  anchor.bytes = 200;
+  CurvePoint lower = point, lower_anchor = anchor;
+  lower.bytes = lower_anchor.bytes = 100;
+  lower.psnr_db = lower_anchor.psnr_db = 40.0;
+  CHECK(std::isinf(*ceiling_db({point})));
+  CHECK_FALSE(ceiling_db({anchor}));
+  const CurveSummary summary = summarize("cube", curves_of({lower, point, lower_anchor, anchor}));
+  REQUIRE(summary.methods.size() == 2);
+  CHECK(*summary.methods[0].exact_from_bytes == 300);
+  CHECK(*summary.methods[0].bytes_at.back() == 300);
+  CHECK(*summary.methods[1].bytes_ratio == Approx(200.0 / 300.0));
+  CHECK_FALSE(summary.methods[1].bd);
+  CHECK_FALSE(summary.methods[1].no_bd.empty());
+  std::ostringstream out;
+  print_summaries(out, {summary});
+  CHECK(out.str().find("exact from 300 bytes on") != std::string::npos);
+  CHECK(out.str().find("inf") == out.str().find("infinite"));
 }

@@ -277,3 +277,13 @@ TEST_CASE("renumbering vertices and faces leaves the distance as it is, within i
   CHECK(std::abs(renumbered.backward.rms - plain.backward.rms) < 6.0 * plain.backward.rms_standard_error);
   CHECK(renumbered.forward.mean == Approx(plain.forward.mean).epsilon(1e-3));
 }
+
+TEST_CASE("distances of the size of rounding are none") {
+  Mesh a = shapes::sphere(3), b = a;
+  for (Vec3& p : b.positions) p *= 1.0 + 1e-15;
+  Progress silent;
+  CHECK(std::isinf(surface_distance(a, b, {.samples = 1000}, silent).psnr_db()));
+  for (Vec3& p : b.positions) p *= 1.0 + 1e-11;
+  CHECK(surface_distance(a, b, {.samples = 1000}, silent).psnr_db() > 200.0);
+  CHECK_FALSE(surface_distance(a, b, {.samples = 1000}, silent).exact());
+}

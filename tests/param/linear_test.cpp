@@ -1,3 +1,5 @@
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -245,4 +247,29 @@ TEST_CASE("corners stay where symmetry wants them, and go back down the energy's
     CHECK(before > 0.1);
     CHECK(distance() < 0.08);
   }
+}
+
+TEST_CASE("a solve leaves the number of threads of OpenBLAS and OpenMP as it found it") {
+  const auto call = [](const char* name) { return dlsym(RTLD_DEFAULT, name); };
+  const auto blas = reinterpret_cast<int (*)()>(call("openblas_get_num_threads"));
+  const auto set_blas = reinterpret_cast<void (*)(int)>(call("openblas_set_num_threads"));
+  const auto levels = reinterpret_cast<int (*)()>(call("omp_get_max_active_levels"));
+  const auto set_levels = reinterpret_cast<void (*)(int)>(call("omp_set_max_active_levels"));
+  if (!blas || !levels) return;  // a build without SuiteSparse
+  const int blas_before = blas(), levels_before = levels();
+  set_blas(2);
+  set_levels(1);
+  Eigen::SparseMatrix<double> identity(40, 40);
+  identity.setIdentity();
+  const Eigen::MatrixX2d right = Eigen::MatrixX2d::Ones(40, 2);
+  Eigen::MatrixX2d x;
+  CHECK(solve_sparse(identity, right, x));
+  CHECK((x == right));
+  CholeskySolver cholesky;
+  CHECK(cholesky.factorize(identity));
+  CHECK((cholesky.solve(right.col(0)) == right.col(0)));
+  CHECK(blas() == 2);
+  CHECK(levels() == 1);
+  set_blas(blas_before);
+  set_levels(levels_before);
 }

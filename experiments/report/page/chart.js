@@ -36,10 +36,15 @@ const Chart = (() => {
     const coded = curves.filter((c) => c.ceiling_db !== null);
     const shown = coded.length ? coded : curves;
     const bytes = shown.flatMap((c) => c.points.map((p) => p.bytes));
-    const inside = curves.flatMap((c) => c.points.filter((p) => p.bytes <= Math.max(...bytes)));
-    const tops = coded.map((c) => c.ceiling_db);
-    const top = tops.length ? Math.max(...tops) + 2 : Math.max(...inside.map((p) => p.psnr_db));
-    return { x: [Math.min(...bytes), Math.max(...bytes)], y: [Math.min(...inside.map((p) => p.psnr_db)) - 1, top] };
+    const heights = curves.flatMap((c) => c.points.filter((p) => p.bytes <= Math.max(...bytes) && p.psnr_db < Infinity))
+      .map((p) => p.psnr_db);
+    const tops = coded.map((c) => c.ceiling_db).filter((db) => db < Infinity);
+    // Where all points are exact there are no heights, and any will do.
+    const top = tops.length ? Math.max(...tops) + 2 : heights.length ? Math.max(...heights) + 2 : 100;
+    const low = heights.length ? Math.min(...heights) - 1 : top - 100;
+    // One size alone has no extent.
+    const first = Math.min(...bytes), last = Math.max(...bytes);
+    return { x: [first, last > first ? last : 2 * first], y: [low, top] };
   }
 
   function scales(curves, width, height, log) {
@@ -49,7 +54,8 @@ const Chart = (() => {
     return {
       domain: { x: [log ? x[0] : 0, x[1]], y },
       x: (v) => margin.left + (along(v) - from) / (to - from) * (width - margin.left - margin.right),
-      y: (v) => height - margin.bottom - (v - y[0]) / (y[1] - y[0]) * (height - margin.top - margin.bottom),
+      // What is exact stands at the upper edge.
+      y: (v) => height - margin.bottom - (Math.min(v, y[1]) - y[0]) / (y[1] - y[0]) * (height - margin.top - margin.bottom),
     };
   }
 
@@ -83,7 +89,7 @@ const Chart = (() => {
     box.innerHTML = '';
     box.append(element('b', {}, curve.label), element('br'),
       ...[`${point.bytes.toLocaleString('en')} bytes · ${point.bits_per_vertex.toPrecision(3)} bits/vertex`,
-        `${point.psnr_db.toFixed(2)} dB ± ${point.standard_error_db.toPrecision(1)}`,
+        point.psnr_db === Infinity ? 'exact' : `${point.psnr_db.toFixed(2)} dB ± ${point.standard_error_db.toPrecision(1)}`,
         `RMS ${point.rms.toExponential(2)} (→ ${point.rms_forward.toExponential(2)}, ← ${point.rms_backward.toExponential(2)})`,
         `Hausdorff ≥ ${point.hausdorff.toExponential(2)} · ${point.faces.toLocaleString('en')} faces`]
         .flatMap((line) => [line, element('br')]));
@@ -127,19 +133,20 @@ const Chart = (() => {
     svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
     const scale = scales(curves, width, height, log);
     axes(svg, scale, width, height, log);
-    const clip = (p) => p.bytes >= scale.domain.x[0] && p.bytes <= scale.domain.x[1] * 1.05 && p.psnr_db <= scale.domain.y[1];
+    const exact = (p) => p.psnr_db === Infinity;
+    const clip = (p) => p.bytes >= scale.domain.x[0] && p.bytes <= scale.domain.x[1] * 1.05 && (exact(p) || p.psnr_db <= scale.domain.y[1]);
     for (const curve of [...curves].reverse()) {
-      if (ceilings && curve.ceiling_db !== null) {
+      if (ceilings && curve.ceiling_db !== null && curve.ceiling_db < Infinity) {
         const y = scale.y(curve.ceiling_db);
         svg.append(element('path', { class: 'ceiling', stroke: curve.colour, d: `M${margin.left},${y}H${width - margin.right}`, 'data-label': curve.label }));
       }
-      const line = envelope(curve.points).filter(clip);
+      const line = envelope(curve.points).filter((p) => clip(p) && !exact(p));
       svg.append(element('path', {
         class: curve.label === reference ? 'curve first' : 'curve', stroke: curve.colour, 'data-label': curve.label,
         d: line.map((p, i) => `${i ? 'L' : 'M'}${scale.x(p.bytes).toFixed(1)},${scale.y(p.psnr_db).toFixed(1)}`).join(''),
       }));
       for (const p of curve.points.filter(clip))
-        svg.append(element('circle', { cx: scale.x(p.bytes), cy: scale.y(p.psnr_db), r: 2.2, fill: curve.colour }));
+        svg.append(element('circle', { cx: scale.x(p.bytes), cy: scale.y(p.psnr_db), r: exact(p) ? 4 : 2.2, fill: curve.colour, class: exact(p) ? 'exact' : '' }));
     }
     follow(svg, curves.map((c) => ({ ...c, points: c.points.filter(clip) })), scale);
   }

@@ -4,6 +4,13 @@
   const views = {};
   window.gspView = (file, view) => { views[file] = view; };
 
+  // JSON has no infinity: null with a reason beside it stands for the decibels of a surface that is met exactly.
+  const restore = (object, name) => { if (object[name] === null && object[`${name}_reason`]) object[name] = Infinity; };
+  for (const curve of run.models.flatMap((m) => m.curves)) {
+    restore(curve, 'ceiling_db');
+    for (const point of curve.points) restore(point, 'psnr_db');
+  }
+
   const labels = [...new Set(run.models.flatMap((m) => m.curves.map((c) => c.label)))];
   const colour = Chart.colours(labels);
   for (const model of run.models) for (const curve of model.curves) curve.colour = colour[curve.label];
@@ -44,9 +51,10 @@
   function csv() {
     const model = modelOf(State.get('model')), hidden = State.list('hide');
     const columns = ['bytes', 'bits_per_vertex', 'faces', 'rms_forward', 'rms_backward', 'rms', 'hausdorff', 'psnr_db', 'standard_error_db', 'samples'];
-    const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text);
+    const csvNumber = (value) => (value === Infinity ? 'inf' : value);
+    const quoted = (text) => (/[",\r\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text);
     const rows = model.curves.filter((c) => !hidden.includes(c.label)).flatMap((c) =>
-      c.points.map((p) => [quoted(model.name), quoted(c.label), ...columns.map((name) => p[name])].join(',')));
+      c.points.map((p) => [quoted(model.name), quoted(c.label), ...columns.map((name) => csvNumber(p[name]))].join(',')));
     const text = [['model', 'label', ...columns].join(','), ...rows, ''].join('\n');
     const link = element('a', { href: URL.createObjectURL(new Blob([text], { type: 'text/csv' })), download: `${model.name}.csv` });
     link.click();
@@ -82,7 +90,7 @@
     const density = 2 ** Math.min(5, Math.max(0, Number(State.get('lines')) || 0));
     byId('budget').max = sizes.length - 1;
     byId('budget').value = size;
-    byId('budget-value').textContent = `${bytesText(sizes[size].bytes)} (${sizes[size].psnr_db.toFixed(1)} dB)`;
+    byId('budget-value').textContent = `${bytesText(sizes[size].bytes)} (${sizes[size].psnr_db === null ? 'exact' : `${dbText(sizes[size].psnr_db, 1)} dB`})`;
     byId('lines').value = Math.log2(density);
     byId('lines-value').textContent = density;
     byId('lines-control').style.visibility = kind === 'isolines' ? 'visible' : 'hidden';
@@ -125,7 +133,7 @@
       const name = element('td', { colspan: head.length }, model.name, element('span', { class: 'note' }, size));
       rows.push(element('tr', { class: 'model' }, name));
       for (const c of model.curves.filter((one) => one.points.length)) {
-        const cells = [c.label, some(c.base_vertices, String), some(c.level, String), some(c.positions, String), some(c.ceiling_db, fixed(1)),
+        const cells = [c.label, some(c.base_vertices, String), some(c.level, String), some(c.positions, String), some(c.ceiling_db, (v) => dbText(v, 1)),
           some(c.remesh_error, (v) => (1e5 * v).toFixed(2)), some(c.paper_error, (v) => (1e5 * v).toFixed(2)),
           ...c.bytes_at.map((b) => some(b, (v) => Math.round(v).toLocaleString('en'))),
           c.label === run.reference ? '0' : some(c.bd_rate, (v) => `${v > 0 ? '+' : ''}${v.toFixed(1)} %`)];
@@ -138,7 +146,7 @@
     byId('table-note').textContent = `Base: vertices of the base complex. Error: RMS distance of the uncoded remesh over the ` +
       `diagonal, in units of 1e-5, beside that of the paper's Table 1, ` +
       `which is of sampled positions, so only rows of those compare with it. ` +
-      `dB columns: bytes at which the curve reaches it. ` +
+      `dB columns: bytes at which the curve reaches it. Exact: no distance to the input is left, its PSNR is infinite. ` +
       (run.models.some((m) => m.curves.some((c) => c.mode === 'fixed')) ? `mode=fixed: a stream for each size alone; the other curves are prefixes of one. ` : '') +
       `BD-rate: mean bytes against ${run.reference} at equal PSNR, below the ceilings less 10 dB; more than 0 is worse.`;
   }

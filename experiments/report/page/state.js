@@ -55,5 +55,7 @@ function choice(host, name, options, chosen) {
   host.hidden = options.length < 2;
 }
 
+const dbText = (db, digits) => (db === Infinity ? 'exact' : db.toFixed(digits));
+
 const bytesText = (bytes) =>
   bytes < 1024 ? `${bytes} B` : bytes < 1048576 ? `${+(bytes / 1024).toPrecision(3)} KB` : `${+(bytes / 1048576).toPrecision(3)} MB`;
