@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -6,7 +8,9 @@
 #include "mesh/io.h"
 #include "mesh/topology.h"
 #include "mesh/weld.h"
+#include "remesh/filters/displacement.h"
 #include "remesh/filters/normal_share.h"
+#include "remesh/remesh_options.h"
 #include "remesh/semiregular_file.h"
 
 namespace gsp::cli {
@@ -61,9 +65,32 @@ Json weld_report(const Mesh& mesh, int boundary_edges) {
           {"asked_for_by", closed > 0 ? Json(exact_is_enough ? "--weld exact" : "--weld 1e-6") : Json()}};
 }
 
+/// Of a displaced mesh, its control mesh and how large its displacements are.
+Json displaced_report(const SemiregularMesh& mesh) {
+  const Displacements numbers = displaced_form(mesh).displacements;
+  double sum = 0.0, largest = 0.0;
+  std::size_t across = 0;
+  for (std::size_t v = 0; v < numbers.along.size(); ++v) {
+    sum += numbers.along[v] * numbers.along[v];
+    largest = std::max(largest, std::abs(numbers.along[v]));
+    across += numbers.across[v] != 0.0;
+  }
+  return {{"control_points", mesh.control->points.size()},
+          {"control_grid", mesh.control->grid},
+          {"vertices_with_a_second_number", across},
+          {"rms_displacement", std::sqrt(sum / static_cast<double>(numbers.along.size()))},
+          {"largest_displacement", largest}};
+}
+
 /// Of a remesh, how many of its vertices one number gives.
 Json levels(const std::string& path) {
   const SemiregularMesh mesh = read_semiregular(path);
+  if (mesh.control)
+    return {{"kind", remesh_kind_name(RemeshKind::Displaced)},
+            {"level", mesh.level},
+            {"base_vertices", mesh.base_vertices},
+            {"base_faces", mesh.base_faces.size()},
+            {"displaced", displaced_report(mesh)}};
   const NormalShare share = normal_share(mesh);
   return {{"level", mesh.level},
           {"base_vertices", mesh.base_vertices},

@@ -10,6 +10,7 @@
 
 #include "coder/bitplane_coder.h"
 #include "coder/coded_order.h"
+#include "coder/displaced/displaced_codec.h"
 #include "coder/edge_forest.h"
 #include "coder/header.h"
 #include "coder/importance.h"
@@ -43,22 +44,11 @@ void check(const SemiregularMesh& mesh, const EncodeOptions& options) {
     if (!used[v]) throw Error(Cause::Malformed, "a base vertex belongs to no face", Element::Vertex, v);
 }
 
-/// Meshes of so many faces are decoded from any prefix; finer levels of larger ones need bytes that speak of them.
-constexpr std::int64_t kFreeFaces = 1 << 19, kFacesPerByte = 2048;
+/// Where there is no level to read it from.
+constexpr int kFlatPrecision = kPassesPerPlane * 16;
 
-std::int64_t faces_at(const StreamHeader& header, int level) {
-  return static_cast<std::int64_t>(header.base.faces.size()) << (2 * level);
-}
-
-/// The finest level, at most the stream's, with no more than so many faces.
-int finest_level(const StreamHeader& header, std::int64_t faces) {
-  int level = header.level;
-  while (level > 0 && faces_at(header, level) > faces) --level;
-  return level;
-}
-
-/// Level of the reconstruction that importance is read from, at most: as coarse as what any prefix decodes to.
-int importance_level(const StreamHeader& header) { return finest_level(header, kFreeFaces); }
+/// Of levels finer than what any prefix decodes to.
+constexpr std::int64_t kFacesPerByte = 2048;
 
 /// -1 where no detail is.
 int finest_significant_level(const BitplaneCoefficients& known, const EdgeForest& forest) {
@@ -165,7 +155,7 @@ struct Source {
     positions[mesh.level] = in_coded_order(mesh, header.base).positions;
     if (options.precision_bits == EncodeOptions::kAutoPrecision)
       precision_passes = mesh.level == 0
-                             ? kPassesPerPlane * 16
+                             ? kFlatPrecision
                              : sufficient_precision(structure.levels.back(), positions[mesh.level], diagonal);
     precision_passes = std::min(precision_passes, kPassesPerPlane * most_precision_bits(mesh.level));
     for (int l = mesh.level - 1; l >= 0; --l) {
@@ -222,6 +212,30 @@ struct Source {
 /// to one side and leave the surface too flat.
 constexpr double kBitWorths[] = {0.05, 0.05, 0.0, 0.1, 0.15, 0.05};
 
+void require_room(std::size_t header_size, std::size_t bytes) {
+  if (bytes < header_size)
+    throw Error(Cause::BadOption, "the header alone takes " + std::to_string(header_size) + " bytes");
+}
+
+Bytes cut(Bytes stream, std::size_t bytes) {
+  require_room(header_bytes(stream), bytes);
+  if (stream.size() > bytes) stream.resize(bytes);
+  return stream;
+}
+
+Bytes displaced_stream(const SemiregularMesh& mesh, const EncodeOptions& options, Progress& progress,
+                       StreamParts* parts) {
+  check(mesh, options);
+  const double diagonal = std::max(bounding_box_diagonal(mesh.mesh()), mesh.control->grid);
+  int precision = kPassesPerPlane * options.precision_bits;
+  if (options.precision_bits == EncodeOptions::kAutoPrecision)
+    precision = mesh.level == 0 ? kFlatPrecision
+                                : sufficient_precision(
+                                      subdivision_levels(mesh.base_vertices, mesh.base_faces, mesh.level - 1).back(),
+                                      mesh.positions, diagonal);
+  return encode_displaced(mesh, options.wavelet, diagonal, precision, progress, parts);
+}
+
 }  // namespace
 
 const char* wavelet_name(Wavelet wavelet) {
@@ -241,6 +255,7 @@ const char* wavelet_name(Wavelet wavelet) {
 Wavelet wavelet_of(const std::string& name) { return value_of(kWavelets, wavelet_name, name, "wavelet"); }
 
 Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress& progress, StreamParts* parts) {
+  if (mesh.control) return displaced_stream(mesh, options, progress, parts);
   const Source source(mesh, options, progress);
   progress.report("entropy coding", 0.8);
   StreamHeader header = source.header;
@@ -254,14 +269,14 @@ Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress
 }
 
 Bytes encode_fixed(const SemiregularMesh& mesh, const EncodeOptions& options, std::size_t bytes, Progress& progress) {
+  if (mesh.control) return cut(displaced_stream(mesh, options, progress, nullptr), bytes);
   const Source source(mesh, options, progress);
   const SurfaceError error(in_coded_order(mesh, source.header.base).mesh());
   const EdgeForest& forest = source.structure.forest;
   StreamHeader header = source.header;
   BitplaneCoefficients integers = source.quantized_as_it_is(header);
   const std::size_t header_size = write_header(header, source.connectivity).size();
-  if (bytes < header_size)
-    throw Error(Cause::BadOption, "the header alone takes " + std::to_string(header_size) + " bytes");
+  require_room(header_size, bytes);
   BitplaneCoefficients best;
   StreamHeader best_header;
   double least = std::numeric_limits<double>::infinity();
@@ -299,6 +314,8 @@ SemiregularMesh decode(const Bytes& stream, std::size_t budget) {
   const std::int64_t affordable = kFacesPerByte * static_cast<std::int64_t>(std::min(end - needed, stream.size()));
   SemiregularMesh mesh;
   mesh.level = finest_level(header, std::max(kFreeFaces, affordable));
+  if (header.kind == StreamKind::Displaced)
+    return decode_displaced(header, mesh.level, importance_level(header), begin + needed, begin + end);
   const Structure structure(header, mesh.level);
   const BitplaneCoefficients known =
       decode_bitplanes(structure.forest, structure.layout(header), begin + needed, begin + end);

@@ -46,6 +46,9 @@ struct StreamParts {
 /// A mesh whose details, but for those of boundary edges, have no tangential part to the stream's precision, becomes a
 /// scalar stream: tangential components take no bits then.
 ///
+/// A displaced mesh becomes a stream of its control mesh and displacements (coder/displaced); its header holds the
+/// control points.
+///
 /// A decoder numbers base vertices and faces, and with them all finer vertices, in the order in which they were coded;
 /// `coded_vertex_order` (coder/coded_order.h) says which vertex became which.
 /// `parts`, where given, receives the sizes. Throws Error: BadOption, NoFaces, NonFinite, Malformed (a base vertex
@@ -57,8 +60,8 @@ Bytes encode(const SemiregularMesh& mesh, const EncodeOptions& options, Progress
 /// that stops there: in the frames that it will have, and significant where that is worth its bits
 /// (coder/rate_distortion.h). Several choices are tried, that of the embedded stream among them, and the one that moves
 /// the surface least along its normals is taken. Its prefixes decode too, to less than those of the embedded stream.
-/// About ten times the time of `encode`. Throws what `encode` throws, and Error(BadOption) where `bytes` does not hold
-/// the header.
+/// About ten times the time of `encode`. Of a displaced mesh it is the prefix of the embedded stream. Throws what
+/// `encode` throws, and Error(BadOption) where `bytes` does not hold the header.
 Bytes encode_fixed(const SemiregularMesh& mesh, const EncodeOptions& options, std::size_t bytes, Progress& progress);
 
 /// Number of bytes that a prefix needs at least. Throws Error(BadStream).

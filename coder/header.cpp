@@ -1,7 +1,10 @@
 #include "coder/header.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <iterator>
+#include <span>
 #include <string>
 
 #include "mesh/error.h"
@@ -13,6 +16,8 @@ namespace {
 constexpr std::array<std::uint8_t, 3> kMagic = {'P', 'G', 'C'};
 constexpr std::size_t kChecksumBegin = kMagic.size() + 1, kChecksumEnd = kChecksumBegin + 4;
 constexpr std::uint8_t kOldestVersion = 6;
+/// Sums of it and a control point's steps are exact in double precision, multiplied by a grid of 3 bits too.
+constexpr std::int64_t kMostControlOrigin = std::int64_t{1} << 41;
 
 [[noreturn]] void refuse(const std::string& why) { throw Error(Cause::BadStream, "not a usable coded mesh: " + why); }
 
@@ -68,6 +73,11 @@ class Parser {
     return value;
   }
   const std::uint8_t* next() const { return next_; }
+  std::span<const std::uint8_t> bytes(std::uint64_t count) {
+    if (count > static_cast<std::uint64_t>(end_ - next_)) refuse("the header ends early");
+    next_ += count;
+    return {next_ - count, next_};
+  }
 
  private:
   const std::uint8_t* next_;
@@ -88,7 +98,35 @@ std::uint64_t size_of_rest(Parser& parser) {
   return size;
 }
 
+void put_control(Bytes& rest, const StreamHeader& header) {
+  int exponent = 0;
+  const int mantissa = static_cast<int>(8.0 * std::frexp(header.control_grid, &exponent));
+  put_varint(rest, zigzag(4 * exponent + mantissa - 4));
+  Bytes control;
+  encode_control(header.base, header.base_planes, header.control, control);
+  put_varint(rest, control.size());
+  rest.insert(rest.end(), control.begin(), control.end());
+}
+
+/// Reads the grid, and where the control points are.
+std::span<const std::uint8_t> control_bytes(Parser& parser, StreamHeader& header) {
+  if (header.base_planes > kMostControlPlanes) refuse("a field is out of range");
+  for (std::int64_t o : header.origin)
+    if (std::abs(o) > kMostControlOrigin) refuse("a field is out of range");
+  const int grid = static_cast<int>(parser.signed_within(4 * 500 + 3));
+  header.control_grid = std::ldexp(4 + (grid & 3), (grid >> 2) - 3);
+  return parser.bytes(parser.varint());
+}
+
 }  // namespace
+
+int finest_level(const StreamHeader& header, std::int64_t faces) {
+  int level = header.level;
+  while (level > 0 && static_cast<std::int64_t>(header.base.faces.size()) << (2 * level) > faces) --level;
+  return level;
+}
+
+int importance_level(const StreamHeader& header) { return finest_level(header, kFreeFaces); }
 
 Bytes write_header(const StreamHeader& header, const Bytes& connectivity) {
   Bytes rest;
@@ -102,6 +140,7 @@ Bytes write_header(const StreamHeader& header, const Bytes& connectivity) {
   put_varint(rest, header.base.faces.size());
   put_varint(rest, zigzag(header.step_exponent));
   for (std::int64_t o : header.origin) put_varint(rest, zigzag(o));
+  if (header.kind == StreamKind::Displaced) put_control(rest, header);
   rest.insert(rest.end(), connectivity.begin(), connectivity.end());
 
   Bytes sized;
@@ -153,7 +192,11 @@ StreamHeader read_header(const std::uint8_t* begin, const std::uint8_t* end) {
     refuse("its mesh has no faces or too many");
   header.step_exponent = static_cast<int>(parser.signed_within(500));
   for (std::int64_t& o : header.origin) o = parser.signed_within(std::int64_t{1} << 58);
+  std::span<const std::uint8_t> control;
+  if (header.kind == StreamKind::Displaced) control = control_bytes(parser, header);
   header.base = decode_connectivity(static_cast<int>(faces), parser.next(), end);
+  if (header.kind == StreamKind::Displaced)
+    header.control = decode_control(header.base, header.base_planes, control.data(), control.data() + control.size());
   return header;
 }
 

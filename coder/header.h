@@ -7,6 +7,7 @@
 
 #include "coder/base_connectivity.h"
 #include "coder/codec.h"
+#include "coder/displaced/control_points.h"
 
 namespace gsp {
 
@@ -14,8 +15,9 @@ namespace gsp {
 enum class StreamKind : std::uint8_t {
   Parametric = 0,  ///< three
   Normal = 1,      ///< one, along the normal of its edge's frame; three on the boundary
+  Displaced = 2,   ///< one, along the normals of a control mesh's surface; two on the boundary
 };
-inline constexpr int kStreamKinds = 2;
+inline constexpr int kStreamKinds = 3;
 
 /// The version that is written. Those of the one before, all parametric, are read in the same way.
 inline constexpr std::uint8_t kStreamVersion = 7;
@@ -25,6 +27,8 @@ inline constexpr std::uint8_t kStreamVersion = 7;
 ///     "PGC"  version  CRC-32 of version and rest (little endian)  varint size of the rest
 ///     rest: wavelet | log2(tangential ratio) << 4 | kind << 6, level, base planes, detail planes (one byte each);
 ///           varints: base faces, zigzag step exponent, zigzag origin x, y, z; base connectivity
+///     of kind displaced, before the base connectivity: varints zigzag 4 exponent + mantissa - 4 of the control points'
+///           grid, bytes of the control points; these
 ///
 /// A varint holds 7 bits a byte, least significant first, at most 9 bytes.
 struct StreamHeader {
@@ -37,10 +41,22 @@ struct StreamHeader {
   int step_exponent = 0;                    ///< the step of normal details of the finest level is 2^step_exponent
   std::array<std::int64_t, 3> origin = {};  ///< of the base positions, in units of 2^(base_planes - 3) base steps
   CodedBase base;
+  std::vector<ControlSteps>
+      control;  ///< #B of kind displaced: control points from the origin, which counts their steps
+  double control_grid = 0.0;
 };
 
 /// The largest decoded mesh, in faces of its finest level: bounds memory and time against hostile headers.
 inline constexpr std::int64_t kMaxDecodedFaces = 50'000'000;
+
+/// Meshes of so many faces are decoded from any prefix; finer levels of larger ones need bytes that speak of them.
+inline constexpr std::int64_t kFreeFaces = 1 << 19;
+
+/// The finest level, at most the stream's, with no more than so many faces.
+int finest_level(const StreamHeader& header, std::int64_t faces);
+
+/// Level of the reconstruction that importance is read from, at most: as coarse as what any prefix decodes to.
+int importance_level(const StreamHeader& header);
 
 /// `connectivity` is what `encode_connectivity` wrote for `header.base`.
 Bytes write_header(const StreamHeader& header, const Bytes& connectivity);

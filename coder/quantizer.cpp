@@ -8,21 +8,6 @@ namespace gsp {
 
 namespace {
 
-/// L2 norm of the wavelet over that of the scaling function, in the limit and at equal spacing (algorithms.md §5).
-double wavelet_norm(Wavelet wavelet) {
-  switch (wavelet) {
-    case Wavelet::Loop:
-      return 0.374 / 0.5125;
-    case Wavelet::Loop11:
-      return 0.275 / 0.5125;
-    case Wavelet::Butterfly:
-      return 1.0;
-    case Wavelet::ButterflyLifted:
-      return 0.685 / 0.792;
-  }
-  return 1.0;
-}
-
 /// Steps are that much finer than the precision asked for, so that urgent nodes can end finer than the others.
 constexpr int kSpareBits = kMaxUrgency / kPassesPerPlane;
 
@@ -75,6 +60,20 @@ std::vector<std::array<std::uint32_t, 3>> quantize_base(const std::vector<Vec3>&
 }
 
 }  // namespace
+
+double wavelet_norm(Wavelet wavelet) {
+  switch (wavelet) {
+    case Wavelet::Loop:
+      return 0.374 / 0.5125;
+    case Wavelet::Loop11:
+      return 0.275 / 0.5125;
+    case Wavelet::Butterfly:
+      return 1.0;
+    case Wavelet::ButterflyLifted:
+      return 0.685 / 0.792;
+  }
+  return 1.0;
+}
 
 BitplaneCoefficients quantize(const std::vector<Vec3>& base, const std::vector<std::vector<Vec3>>& details,
                               double diagonal, int precision_bits, StreamHeader& header) {

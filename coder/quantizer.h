@@ -10,6 +10,9 @@ namespace gsp {
 /// Base positions have a bit more for each level; all must fit 31 bits, control points outside the box included.
 constexpr int most_precision_bits(int level) { return 25 - level; }
 
+/// L2 norm of the wavelet over that of the scaling function, in the limit and at equal spacing (algorithms.md §5).
+double wavelet_norm(Wavelet wavelet);
+
 /// Turns coefficients into integers. Steps are in inverse proportion to the L2 norm of what a coefficient adds to the
 /// surface: the step of normal details doubles per finer level, tangential details take `header.tangential_ratio` times
 /// it, base positions the coarsest level's share. Sets the header's step exponent, origin and plane counts.

@@ -4,35 +4,13 @@
 #include <cmath>
 
 #include "mesh/error.h"
-#include "mesh/shapes.h"
 #include "remesh/filters/loop_limit.h"
 #include "remesh/semiregular_file.h"
 #include "tests/cause_of.h"
+#include "tests/coder/displaced_meshes.h"
 #include "tests/temporary_folder.h"
 
 using namespace gsp;
-
-namespace {
-
-/// A base as its own control mesh, displaced by a smooth field, on boundaries across them too.
-SemiregularMesh displaced(const Mesh& base, int level) {
-  const double grid = 0.0625;
-  std::vector<Vec3> control = base.positions;
-  for (Vec3& p : control)
-    for (double& x : p) x = grid * std::nearbyint(x / grid);
-  const auto levels = subdivision_levels(base.vertex_count(), base.faces, level);
-  const SmoothSurface surface = smooth_surface(levels, control);
-  Displacements numbers;
-  for (const Vec3& p : surface.points) {
-    numbers.along.push_back(0.1 * std::sin(3.0 * p.x() + p.y()));
-    numbers.across.push_back(0.05 * std::cos(2.0 * p.x() - p.y()));
-  }
-  SemiregularMesh mesh{level, base.vertex_count(), base.faces, displaced_points(surface, numbers)};
-  mesh.control = ControlMesh{control, grid};
-  return mesh;
-}
-
-}  // namespace
 
 TEST_CASE("conormals of a flat grid point out of its sides, and inside there are none") {
   const Mesh grid = shapes::grid(3, 4);
@@ -48,7 +26,7 @@ TEST_CASE("conormals of a flat grid point out of its sides, and inside there are
 
 TEST_CASE("numbers read off a displaced mesh are those that it was made of") {
   for (const Mesh& base : {shapes::icosahedron(), shapes::grid(3, 4), shapes::torus(6, 4)}) {
-    const SemiregularMesh mesh = displaced(base, 2);
+    const SemiregularMesh mesh = samples::displaced(base, 2);
     const DisplacedForm form = displaced_form(mesh);
     CHECK(form.farthest < 1e-15);
     const auto levels = subdivision_levels(mesh.base_vertices, mesh.base_faces, mesh.level);
@@ -63,7 +41,7 @@ TEST_CASE("numbers read off a displaced mesh are those that it was made of") {
 }
 
 TEST_CASE("a control mesh that does not belong to its mesh is refused") {
-  const SemiregularMesh good = displaced(shapes::icosahedron(), 2);
+  const SemiregularMesh good = samples::displaced(shapes::icosahedron(), 2);
   const auto cause = [](const SemiregularMesh& mesh) { return cause_of([&] { displaced_form(mesh); }); };
   SemiregularMesh bad = good;
   bad.control->points[3].x() += bad.control->grid;
@@ -89,7 +67,7 @@ TEST_CASE("a control mesh that does not belong to its mesh is refused") {
 
 TEST_CASE("a displaced mesh comes back from its file with its control points, bit for bit") {
   const TemporaryFolder folder;
-  const SemiregularMesh mesh = displaced(shapes::grid(3, 4), 3);
+  const SemiregularMesh mesh = samples::displaced(shapes::grid(3, 4), 3);
   const std::string path = folder.file("displaced.sr.ply");
   write_semiregular(path, mesh, {"kind displaced"});
   const SemiregularMesh read = read_semiregular(path);

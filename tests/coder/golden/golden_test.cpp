@@ -6,6 +6,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "tests/coder/displaced_meshes.h"
 #include "tests/coder/scalar_meshes.h"
 
 using namespace gsp;
@@ -53,6 +54,9 @@ std::vector<Golden> golden_streams() {
                    {wavelet, 14}});
   all.push_back(
       {"scalar-butterfly-fixed.pgc", samples::scalar(shapes::grid(3, 4), 3, 0.3), {Wavelet::Butterfly, 14}, 500});
+  all.push_back({"displaced-torus.pgc", samples::displaced(shapes::torus(6, 4), 3), {Wavelet::ButterflyLifted, 14}});
+  all.push_back({"displaced-sheet.pgc", samples::displaced(shapes::grid(3, 4), 3), {Wavelet::ButterflyLifted, 14}});
+  all.push_back({"displaced-loop.pgc", samples::displaced(shapes::icosahedron(), 3), {Wavelet::Loop, 14}});
   all.push_back({"noise-loop.pgc", samples::noise(shapes::icosahedron(), 3), options});
   return all;
 }
