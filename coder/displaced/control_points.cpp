@@ -13,7 +13,7 @@ namespace gsp {
 
 namespace {
 
-[[noreturn]] void refuse() { throw Error(Cause::BadStream, "the control points of the coded mesh are damaged"); }
+[[noreturn]] void refuse_control() { throw Error(Cause::BadStream, "the control points of the coded mesh are damaged"); }
 
 /// Where the points before a vertex lead it to be.
 struct Prediction {
@@ -40,7 +40,7 @@ class ControlCoder {
       for (int k = 0; k < 3; ++k) {
         const std::int64_t left = actual ? (*actual)[v][k] - prediction.point[k] : 0;
         const std::int64_t x = prediction.point[k] + code(left, prediction.trust);
-        if (x < 0 || x >> planes_ != 0) refuse();
+        if (x < 0 || x >> planes_ != 0) refuse_control();
         point[k] = static_cast<std::uint32_t>(x);
       }
       points_.push_back(point);
@@ -130,7 +130,7 @@ std::vector<ControlSteps> decode_control(const CodedBase& base, int planes, cons
   try {
     return ControlCoder<DecodingSide>(base, planes, side).run(nullptr);
   } catch (const StreamEnd&) {
-    refuse();
+    refuse_control();
   }
 }
 
