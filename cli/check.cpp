@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -34,7 +35,16 @@ Baseline baseline_of_run(const std::string& run, const std::string& recipe) {
 int run_baseline(const BaselineOptions& options, Context& context) {
   const Baseline baseline = baseline_of_run(options.run, options.recipe);
   write_baseline(options.output, baseline);
-  print_report(context, {{"recipe", baseline.recipe}, {"rows", baseline.rows.size()}, {"output", options.output}});
+  int replicates = 0;
+  for (const BaselineRow& row : baseline.rows) replicates = std::max(replicates, row.replicates);
+  Progress progress = context.console.progress();
+  if (replicates == 1)
+    progress.note(
+        "one run: the tolerances allow for rounding alone; --replicates of gsp sweep measure what chance does");
+  print_report(context, {{"recipe", baseline.recipe},
+                         {"rows", baseline.rows.size()},
+                         {"replicates", replicates},
+                         {"output", options.output}});
   return 0;
 }
 

@@ -38,7 +38,8 @@ int run_curve(CurveArguments& options, Context& context) {
   const CurveJobResult job =
       curve_job(surface_files(options.meshes), options.output, options.read, options.curve, progress);
   if (context.json) {
-    print_report(context, {{"models", summaries_report(job.models)}, {"files", job.files}});
+    print_report(context,
+                 {{"models", summaries_report(job.models)}, {"means", means_report(job.models)}, {"files", job.files}});
   } else {
     print_summaries(context.out, job.models);
     context.out << "files\n";
@@ -66,6 +67,8 @@ void add_curve(CLI::App& app, Context& context) {
                   "how each size is coded: the prefix of one embedded stream; fixed, a stream for that size alone");
   command.sizes("--budgets", options->curve.budgets, "bytes to decode [256, 512, 1024, ... and the whole stream]");
   command.sampling_options(options->curve.samples, options->curve.seed);
+  command.integer("--replicates", options->curve.replicates, 1, kMostReplicates,
+                  "how often each map is made with other chance, for the intervals of the table");
   command.flag("--no-anchors", options->no_anchors, "leave Draco and decimate-then-Draco out");
   command.on_run([options, &context] { return run_curve(*options, context); });
 }

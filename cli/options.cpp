@@ -305,6 +305,13 @@ void Command::read_options(ReadOptions& options) {
       ->option_text("exact|X");
 }
 
+void Command::replicate_option(ParameterizeOptions& options) {
+  axis_integer(
+      "replicate", options.replicate,
+      "0 takes the surface as it is; each other number decides otherwise where chance decides, by changing the "
+      "cost of removals by 1e-7");
+}
+
 void Command::remesh_options(RemeshOptions& options) {
   axis_integer_or_auto("level", options.level, RemeshOptions::kAutoLevel,
                        "quadrisections of the base; auto is the first level with as many faces as the input");

@@ -75,6 +75,7 @@ class Command {
   void read_options(ReadOptions& options);
   // The options of a stage, the same wherever the stage is run.
   void parameterize_options(ParameterizeOptions& options);
+  void replicate_option(ParameterizeOptions& options);
   void remesh_options(RemeshOptions& options);
   void encode_options(std::string& wavelet, EncodeOptions& options);
   void sampling_options(std::size_t& samples, std::uint64_t& seed);

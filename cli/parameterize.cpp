@@ -56,6 +56,7 @@ int run_parameterize(ParameterizeArguments& options, Context& context) {
                  {"weights", weights_name(options.parameterize.weights)},
                  {"corners", corners_name(options.parameterize.corners)},
                  {"base_edges", base_edges_name(options.parameterize.base_edges)},
+                 {"replicate", options.parameterize.replicate},
                  {"base_vertices", result.map.base.vertex_count()},
                  {"base_faces", result.map.base.face_count()},
                  {"relaxation_rounds", result.relaxation_rounds},
@@ -87,6 +88,7 @@ void add_parameterize(CLI::App& app, Context& context) {
   command.choice("--method", options->method, map_method_words(),
                  "the paper's map, or a baseline on the same base vertices");
   command.parameterize_options(options->parameterize);
+  command.replicate_option(options->parameterize);
   command.optional_output("--omega-csv", options->omega_csv, Content::Csv,
                           "also write the cost of every vertex removal (figure 5d)");
   command.optional_output(

@@ -23,6 +23,7 @@ namespace {
 struct SweepArguments {
   std::string recipe, store;
   std::vector<std::string> models;
+  int replicates = 0;
   bool dry_run = false, status = false;
   SweepOptions sweep;
 };
@@ -33,7 +34,10 @@ struct WorkerOptions {
 };
 
 Json cell_report(const StoredCell& cell) {
-  Json report = {{"model", cell.model}, {"cell", cell.label}, {"status", status_name(cell.status)}};
+  Json report = {{"model", cell.model},
+                 {"cell", cell.label},
+                 {"replicate", cell.options.parameterize.replicate},
+                 {"status", status_name(cell.status)}};
   Json stages = Json::array();
   for (const StageResult& stage : cell.stages) stages.push_back(stage_name(stage.kind));
   if (cell.status == CellStatus::Waiting) report["done_stages"] = stages;
@@ -47,7 +51,8 @@ void print_cell(std::ostream& out, const StoredCell& cell) {
   if (cell.status == CellStatus::Waiting)
     for (const StageResult& stage : cell.stages)
       remark += fmt::format("{}{} done", remark.empty() ? "" : ", ", stage_name(stage.kind));
-  out << printable(fmt::format("{:<8} {:<16} {} {}", status_name(cell.status), cell.model, cell.label, remark)) << '\n';
+  out << printable(fmt::format("{:<8} {:<16} {} {}", status_name(cell.status), cell.model, cell.title(), remark))
+      << '\n';
 }
 
 void print_cells(Context& context, const std::vector<StoredCell>& cells, const Json& further) {
@@ -67,7 +72,8 @@ void print_cells(Context& context, const std::vector<StoredCell>& cells, const J
 }
 
 int run_sweep(SweepArguments& options, Context& context) {
-  const Recipe recipe = read_recipe(options.recipe, options.models);
+  const Recipe recipe = read_recipe(
+      options.recipe, {options.models, options.replicates > 0 ? std::optional(options.replicates) : std::nullopt});
   if (options.dry_run || options.status) {
     Json further = Json::object();
     if (options.status) {
@@ -85,7 +91,7 @@ int run_sweep(SweepArguments& options, Context& context) {
   const std::vector<CurveSummary> summaries = summaries_of(result.cells);
   Json further = {{"stages_run", result.stages_run}, {"table", options.store + "/curve.csv"}};
   if (context.json)
-    further["models"] = summaries_report(summaries);
+    further.update({{"models", summaries_report(summaries)}, {"means", means_report(summaries)}});
   else
     print_summaries(context.out, summaries);
   print_cells(context, result.cells, further);
@@ -115,6 +121,8 @@ void add_sweep(CLI::App& app, Context& context) {
   command.output_folder("--store", options->store, true, "folder for the results");
   command.texts("--models", options->models, "PATTERN...",
                 "surfaces instead of the recipe's; one called as a model with keys of its own keeps them");
+  command.integer("--replicates", options->replicates, 0, kMostReplicates,
+                  "of each cell, to learn what chance does; 0 for as many as the recipe says");
   command.integer("--jobs", options->sweep.jobs, 0, kMostJobs,
                   "worker processes, 0 for one a core; fewer run where memory is short");
   command.flag("--slurm", options->sweep.slurm, "as a Slurm job array; called again, it waits for the one under way");

@@ -77,8 +77,12 @@ struct ParameterizeOptions {
   /// Base vertices to stop at, at least 4. 0: automatic, before metric distortion dominates Ω (§3.1.1, figure 5d).
   /// The simplification stops earlier, with a note, where no vertex can be removed any more.
   int base_vertices = 0;
-  double gamma = 2.0;   ///< weight of triangle shape in Ω, >= 0
-  double mu = 1.0;      ///< weight of area dispersion in Ω, >= 0
+  double gamma = 2.0;  ///< weight of triangle shape in Ω, >= 0
+  double mu = 1.0;     ///< weight of area dispersion in Ω, >= 0
+  /// Which repetition of the experiment this is, >= 0. 0 is the surface as it is; each other number moves the prices of
+  /// vertex removals by a factor of its own, at most 1e-7 from 1, and so decides otherwise where chance decides. Change
+  /// it to learn how much of a result is chance.
+  int replicate = 0;
   int relaxations = 4;  ///< at most so many corner relaxations between solves, >= 0; it ends when no corner moves
 };
 

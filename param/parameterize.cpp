@@ -38,6 +38,7 @@ void check_options(const ParameterizeOptions& options) {
     throw Error(Cause::BadOption, "base vertices must be at least 4, or 0 for the automatic number");
   if (!(options.gamma >= 0.0) || !(options.mu >= 0.0))
     throw Error(Cause::BadOption, "gamma and mu must not be negative");
+  if (options.replicate < 0) throw Error(Cause::BadOption, "the number of the replicate must not be negative");
   if (options.relaxations < 0) throw Error(Cause::BadOption, "the number of relaxations must not be negative");
 }
 
@@ -48,18 +49,20 @@ std::vector<std::string> provenance(const Mesh& input, const ParameterizeOptions
     text << key << ' ' << std::setprecision(17) << value;
     return text.str();
   };
-  return {line("method", method_name(method)),
-          line("base_vertices", atlas.base.vertex_count()),
-          line("base_vertices_asked", options.base_vertices),
-          line("gamma", options.gamma),
-          line("mu", options.mu),
-          line("relaxations", options.relaxations),
-          line("objective", objective_name(options.objective)),
-          line("weights", weights_name(options.weights)),
-          line("corners", corners_name(options.corners)),
-          line("base_edges", base_edges_name(options.base_edges)),
-          line("input_vertices", input.vertex_count()),
-          line("input_faces", input.face_count())};
+  std::vector<std::string> lines = {line("method", method_name(method)),
+                                    line("base_vertices", atlas.base.vertex_count()),
+                                    line("base_vertices_asked", options.base_vertices),
+                                    line("gamma", options.gamma),
+                                    line("mu", options.mu),
+                                    line("relaxations", options.relaxations),
+                                    line("objective", objective_name(options.objective)),
+                                    line("weights", weights_name(options.weights)),
+                                    line("corners", corners_name(options.corners)),
+                                    line("base_edges", base_edges_name(options.base_edges)),
+                                    line("input_vertices", input.vertex_count()),
+                                    line("input_faces", input.face_count())};
+  if (options.replicate > 0) lines.push_back(line("replicate", options.replicate));
+  return lines;
 }
 
 /// What the methods on one base complex share.

@@ -11,7 +11,7 @@ gsp_packages=(
   g++ cmake ninja-build
   libeigen3-dev libopenmesh-dev libdraco-dev libtbb-dev libsuitesparse-dev libopenblas-dev liblbfgs-dev
   libcli11-dev nlohmann-json3-dev libfmt-dev libtomlplusplus-dev libsqlite3-dev libxxhash-dev catch2 libcgal-dev libbenchmark-dev gnuplot-nox
-  libpng-dev libjs-three
+  libpng-dev libjs-three libboost-dev
 )
 # A cluster of one node, for the test of sweeps through Slurm.
 [ "${CI-}" != true ] || gsp_packages+=(slurm-wlm munge)

@@ -21,8 +21,9 @@ using Scope = Axis::Scope;
 constexpr const char* kAuto = "auto";
 constexpr double kMostWeight = 1e6;
 constexpr int kMostRelaxations = 1000;
-// Values of Axis::has_column.
-constexpr bool kColumn = true;
+constexpr int kMostReplicate = 1000000;
+// Values of Axis::has_column and Axis::repeats.
+constexpr bool kColumn = true, kRepeats = true;
 constexpr double kMostInt = std::numeric_limits<int>::max();
 
 std::int64_t integer(const AxisValue& value) { return std::get<std::int64_t>(value); }
@@ -96,6 +97,17 @@ std::vector<Axis> map_axes() {
        [](const Options& o) { return Value(std::int64_t{o.parameterize.relaxations}); },
        [](Options& o, const Value& v) { o.parameterize.relaxations = static_cast<int>(integer(v)); },
        Scope::Gsp},
+      {"replicate",
+       kStage,
+       Kind::Integer,
+       0,
+       kMostReplicate,
+       {},
+       [](const Options& o) { return Value(std::int64_t{o.parameterize.replicate}); },
+       [](Options& o, const Value& v) { o.parameterize.replicate = static_cast<int>(integer(v)); },
+       Scope::Maps,
+       kColumn,
+       kRepeats},
   };
 }
 

@@ -36,6 +36,9 @@ StreamMode stream_mode_of(const std::string& name);
 /// What the column `coder` of curve.csv calls it: "gsp", "gsp-fixed".
 const char* coder_name(StreamMode mode);
 
+/// Most replicates of one cell that are asked for at once.
+inline constexpr int kMostReplicates = 1000;
+
 /// Everything that a cell depends on besides its surface.
 struct CellOptions {
   std::string method = "gsp";        ///< of `method_words`
@@ -86,6 +89,9 @@ struct Axis {
   void (*set)(CellOptions&, const AxisValue&);
   Scope scope = Scope::Maps;
   bool has_column = false;  ///< true where curve.csv has a column for it, so that `further_options` leaves it out
+  /// True where another value repeats the experiment and asks no other question: labels leave it out, and cells of one
+  /// model that differ in nothing else are replicates of one.
+  bool repeats = false;
 
   /// Why a value is impossible ("-1 is not 0 to 1000"); empty where it is fine.
   std::string refusal(const AxisValue& value) const;

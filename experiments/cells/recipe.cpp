@@ -20,6 +20,7 @@ namespace gsp {
 namespace {
 
 constexpr std::size_t kMostCells = 100000;
+constexpr const char* kReplicates = "replicates";
 
 long long line_of(const toml::node& node) { return node.source().begin.line; }
 
@@ -119,6 +120,7 @@ struct Layers {
   const toml::table* own;
   const toml::table* block;
   const toml::table& file;
+  std::optional<int> replicates = {};  ///< instead of those that a key asks for
 
   const toml::node* get(const std::string& key) const {
     for (const toml::table* table : {own, block})
@@ -128,7 +130,7 @@ struct Layers {
 };
 
 void require_known_keys(const toml::table& table, const std::vector<std::string>& further) {
-  std::vector<std::string> known = {"budgets", "preset"};
+  std::vector<std::string> known = {"budgets", "preset", kReplicates};
   known.insert(known.end(), further.begin(), further.end());
   for (const Axis& axis : axes()) known.emplace_back(axis.name);
   for (const auto& [key, value] : table) {
@@ -148,20 +150,18 @@ std::string text(const toml::table& table, const char* key, const std::string& o
 }
 
 std::vector<std::size_t> budgets(const Layers& layers) {
-  std::vector<std::size_t> sizes;
   const toml::node* node = layers.get("budgets");
-  if (!node) return sizes;
+  if (!node) return {};
+  std::set<std::size_t> sizes;
   const toml::array* list = node->as_array();
   if (!list || list->empty())
     refuse("budgets is no list of bytes; leave it out for 256, 512, 1024, ...", line_of(*node));
   for (const toml::node& element : *list) {
     if (!element.is_integer() || element.ref<std::int64_t>() < 1)
       refuse("a budget is no positive number of bytes", line_of(element));
-    sizes.push_back(static_cast<std::size_t>(element.ref<std::int64_t>()));
+    sizes.insert(static_cast<std::size_t>(element.ref<std::int64_t>()));
   }
-  std::sort(sizes.begin(), sizes.end());
-  sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
-  return sizes;
+  return {sizes.begin(), sizes.end()};
 }
 
 // One entry of `models`: a pattern, or a table that holds it as `path` beside keys for its surfaces alone.
@@ -225,8 +225,8 @@ std::vector<ModelSource> found_surfaces(const std::vector<ModelEntry>& entries) 
       for (std::string& source : matching_models(entry.pattern))
         add_surface(surfaces, {std::move(source), entry.own}, entry.line);
     } catch (const Error& error) {
-      if (error.cause() != Cause::CannotOpen) refuse(error.what(), entry.line);
-      refuse(fmt::format("{}; --models takes other surfaces", error.what()), entry.line);
+      const bool unfound = error.cause() == Cause::CannotOpen;
+      refuse(std::string(error.what()) + (unfound ? "; --models takes other surfaces" : ""), entry.line);
     }
   return surfaces;
 }
@@ -243,10 +243,8 @@ std::vector<ModelSource> replacing_surfaces(const std::vector<std::string>& inst
         return e.own && ::fnmatch(stem(e.pattern).c_str(), stem(source).c_str(), 0) == 0;
       });
       // The same surface has the same entry, however often it is given.
-      if (entry == entries.end())
-        add_surface(surfaces, {source, nullptr}, 0);
-      else
-        add_surface(surfaces, {source, entry->own}, entry->line);
+      const bool known = entry != entries.end();
+      add_surface(surfaces, {source, known ? entry->own : nullptr}, known ? entry->line : 0);
     }
   return surfaces;
 }
@@ -262,13 +260,35 @@ std::vector<ParameterizeOptions> presets(const Layers& layers) {
       refuse(fmt::format("preset is none of {}", fmt::join(words, ", ")), line_of(word));
     found.push_back(preset_options(word.ref<std::string>()));
   };
-  if (const toml::array* list = node->as_array()) {
-    if (list->empty()) refuse("preset is an empty list: the sweep would have no cell", line_of(*node));
+  const toml::array* list = node->as_array();
+  if (!list) add(*node);
+  if (list && list->empty()) refuse("preset is an empty list: the sweep would have no cell", line_of(*node));
+  if (list)
     for (const toml::node& word : *list) add(word);
-  } else {
-    add(*node);
-  }
   return found;
+}
+
+// 0 to N - 1, from replicates = N.
+std::vector<AxisValue> replicates(const Axis& axis, const Layers& layers) {
+  std::int64_t count = layers.replicates.value_or(0);
+  if (!layers.replicates) {
+    const toml::node& node = *layers.get(kReplicates);
+    if (layers.get(axis.name))
+      refuse(fmt::format("{} = N stands for {} = 0 to N - 1: give one of them", kReplicates, axis.name), line_of(node));
+    count = node.is_integer() ? node.ref<std::int64_t>() : 0;
+    if (count < 1 || count > kMostReplicates)
+      refuse(fmt::format("{} is no integer of 1 to {}", kReplicates, kMostReplicates), line_of(node));
+  }
+  std::vector<AxisValue> values;
+  for (std::int64_t i = 0; i < count; ++i) values.emplace_back(i);
+  return values;
+}
+
+// The values that the keys give an axis; empty where they do not name it.
+std::vector<AxisValue> values_of(const Axis& axis, const Layers& layers) {
+  if (axis.repeats && (layers.replicates || layers.get(kReplicates))) return replicates(axis, layers);
+  const toml::node* node = layers.get(axis.name);
+  return node ? AxisReader(axis, *node).values : std::vector<AxisValue>();
 }
 
 // All combinations, the first axis varying slowest; those that differ only in what does not apply are one.
@@ -280,9 +300,8 @@ std::vector<CellOptions> combinations(const Layers& layers, long long line) {
     cell.budgets = budgets(layers);
   }
   for (const Axis& axis : axes()) {
-    const toml::node* node = layers.get(axis.name);
-    if (!node) continue;
-    const std::vector<AxisValue> values = AxisReader(axis, *node).values;
+    const std::vector<AxisValue> values = values_of(axis, layers);
+    if (values.empty()) continue;
     if (cells.size() * values.size() > kMostCells) refuse(fmt::format("more than {} cells", kMostCells), line);
     std::vector<CellOptions> product;
     for (const CellOptions& cell : cells)
@@ -321,16 +340,16 @@ toml::table parse(const std::string& path) {
 
 // The cells of one block; surfaces that follow each other with the same keys share a RecipeBlock.
 void add_block(Recipe& recipe, const toml::table* block, const toml::table& file, long long line,
-               const std::vector<std::string>& instead) {
+               const RecipeOverrides& overrides) {
   const std::vector<ModelEntry> entries = model_entries(block, file);
+  const auto& instead = overrides.models;
   if (entries.empty() && instead.empty())
-    refuse("there are no models: models = [\"data/*.ply\", \"shape:torus\"]", line);
-  const std::vector<ModelSource> surfaces =
-      instead.empty() ? found_surfaces(entries) : replacing_surfaces(instead, entries);
+    refuse(R"(there are no models: models = ["data/*.ply", "shape:torus"])", line);
+  const auto surfaces = instead.empty() ? found_surfaces(entries) : replacing_surfaces(instead, entries);
   const toml::table* own = nullptr;
   for (const ModelSource& surface : surfaces) {
     if (&surface == &surfaces.front() || surface.own != own)
-      recipe.blocks.push_back({{}, combinations({surface.own, block, file}, line)});
+      recipe.blocks.push_back({{}, combinations({surface.own, block, file, overrides.replicates}, line)});
     own = surface.own;
     recipe.blocks.back().models.push_back(surface.source);
   }
@@ -343,13 +362,13 @@ void spell_alike(Recipe& recipe) {
     for (std::string& source : block.models) source = first.emplace(surface_place(source), source).first->second;
 }
 
-Recipe recipe_of(const toml::table& file, const std::string& otherwise, const std::vector<std::string>& instead) {
+Recipe recipe_of(const toml::table& file, const std::string& otherwise, const RecipeOverrides& overrides) {
   Recipe recipe;
   recipe.name = text(file, "name", otherwise);
   recipe.description = text(file, "description", "");
   require_known_keys(file, {"models", "name", "description", "block", "weld"});
   recipe.read.weld = weld(file);
-  const auto add = [&](const toml::table* block, long long line) { add_block(recipe, block, file, line, instead); };
+  const auto add = [&](const toml::table* block, long long line) { add_block(recipe, block, file, line, overrides); };
   const toml::node* blocks = file.get("block");
   if (!blocks) {
     add(nullptr, 1);
@@ -367,9 +386,9 @@ Recipe recipe_of(const toml::table& file, const std::string& otherwise, const st
 
 }  // namespace
 
-Recipe read_recipe(const std::string& path, const std::vector<std::string>& models) {
+Recipe read_recipe(const std::string& path, const RecipeOverrides& overrides) {
   try {
-    Recipe recipe = recipe_of(parse(path), stem(path), models);
+    Recipe recipe = recipe_of(parse(path), stem(path), overrides);
     spell_alike(recipe);
     return recipe;
   } catch (const Error& error) {

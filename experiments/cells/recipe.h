@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,12 @@ struct Recipe {
   std::vector<RecipeBlock> blocks;
 };
 
+/// What is taken in place of what a recipe says.
+struct RecipeOverrides {
+  std::vector<std::string> models;  ///< empty for the recipe's
+  std::optional<int> replicates;    ///< 1 to kMostReplicates, for all of its blocks
+};
+
 /// Reads a recipe (TOML):
 ///
 ///     name = "gamma-mu"                  # else the file's name
@@ -31,17 +38,18 @@ struct Recipe {
 ///     gamma = [0, 1, 2]                  # any axis of cell_options.h: one value, a list of them, or a range:
 ///     mu = { from = 0, to = 2, step = 0.5 }         # also { from, to, steps } and { from, to, factor }
 ///     budgets = [1024, 4096]             # bytes; else 256, 512, 1024, ...
-///     preset = "paper"                   # what the map's options are that no key sets: one word or a list
+///     replicates = 8                     # the same as replicate = [0, 1, ..., 7]: each cell so often, to learn its
+///     chance preset = "paper"                   # what the map's options are that no key sets: one word or a list
 ///     [[block]]                          # any number: cells by the keys above, overridden by those of the block
 ///     method = ["draco"]
 ///     models = [{ path = "horse.ply", base_vertices = 140 }]   # a surface with keys that override for it alone
 ///
-/// The cells are all combinations. A surface that a pattern and a table name is one, with the table's keys. `models`
-/// replaces the recipe's where it is not empty; a surface called like the path of a table (folder and ending aside)
+/// The cells are all combinations. A surface that a pattern and a table name is one, with the table's keys. Of surfaces
+/// that replace the recipe's, one called like the path of a table (folder and ending aside)
 /// keeps that table's keys.
 /// Throws Error: CannotOpen; Malformed where it is no TOML; BadOption with the line for unknown keys, impossible
 /// values, an empty list, more than 100000 cells, a pattern that matches nothing, or a key that a block sets besides a
 /// model from above it.
-Recipe read_recipe(const std::string& path, const std::vector<std::string>& models = {});
+Recipe read_recipe(const std::string& path, const RecipeOverrides& overrides = {});
 
 }  // namespace gsp

@@ -10,12 +10,15 @@
 #include "experiments/output/decibels.h"
 #include "experiments/output/quoting.h"
 #include "metrics/bd_rate.h"
+#include "metrics/bootstrap.h"
 
 namespace gsp {
 
 namespace {
 
 constexpr const char* kNone = "-";
+// Share of checks that may fail by chance alone.
+constexpr double kFalseAlarms = 0.05;
 
 // The value of an option where nothing is said of it; "-" where there is no such option.
 std::string default_text(const std::string& name) {
@@ -26,13 +29,6 @@ std::string default_text(const std::string& name) {
 // Only decibels of an exact surface are infinite.
 std::string text(double value) { return std::isinf(value) ? db_text(value, 0) : fmt::format("{:.6g}", value); }
 
-BdCurve bd_curve_of(const BaselineRow& row) {
-  BdCurve curve;
-  for (const RatePoint& point : finite_part(row.curve)) curve.points.push_back({point.bytes, point.psnr_db});
-  if (row.ceiling_db) curve.ceiling_db = *row.ceiling_db;
-  return curve;
-}
-
 class Checker {
  public:
   Checker(const Baseline& baseline, const Baseline& run, const CheckOptions& options)
@@ -40,9 +36,11 @@ class Checker {
 
   CheckResult result() {
     result_.rows = baseline_.rows;
+    for (const BaselineRow& row : baseline_.rows) comparisons_ += static_cast<int>(row.numbers.size()) + 1;
     for (const BaselineRow& row : baseline_.rows) {
       before_ = &row;
       const BaselineRow* now = find(run_, row);
+      now_ = now;
       if (!now)
         moved("row", "there", "missing", kNone, Verdict::Regressed);
       else
@@ -120,7 +118,9 @@ class Checker {
     const auto given = baseline_.tolerances.find(quantity.name);
     const Tolerance tolerance = given == baseline_.tolerances.end() ? quantity.tolerance : given->second;
     const double allowed =
-        std::isfinite(before) ? std::max(tolerance.absolute, tolerance.relative * std::abs(before)) : 0.0;
+        std::isfinite(before)
+            ? std::max({tolerance.absolute, tolerance.relative * std::abs(before), explained_by_chance(name)})
+            : 0.0;
     // What is no number any more has moved too.
     if (std::abs(now - before) <= allowed) return;
     Verdict verdict = Verdict::Changed;
@@ -130,22 +130,33 @@ class Checker {
     moved(name, text(before), text(now), text(allowed), verdict);
   }
 
+  /// How far a mean of the run's replicates lies from that of the baseline's by chance, so that of all comparisons of
+  /// one check none passes it in 95% of the checks (Student's t, Bonferroni). 0 where the baseline has one replicate.
+  double explained_by_chance(const std::string& name) const {
+    const auto deviation = before_->deviations.find(name);
+    if (deviation == before_->deviations.end() || before_->replicates < 2) return 0.0;
+    const double both = 1.0 / before_->replicates + 1.0 / now_->replicates;
+    const double moved = deviation->second * std::sqrt(both) *
+                         student_quantile(1.0 - 0.5 * kFalseAlarms / comparisons_, before_->replicates - 1.0);
+    return name == kBdRate ? 100.0 * std::expm1(moved / 100.0) : moved;
+  }
+
   void compare_bd(const BaselineRow& before, const BaselineRow& now) {
     const BdOptions options{.ceiling_margin_db = kCeilingMarginDb};
     try {
-      bd_compare(bd_curve_of(before), bd_curve_of(before), options);
+      bd_compare(bd_curve(before), bd_curve(before), options);
     } catch (const Error&) {
       ++result_.without_bd;
       return;
     }
     try {
-      compare_number("bd_rate", 0.0, bd_compare(bd_curve_of(before), bd_curve_of(now), options).rate.value);
+      compare_number(kBdRate, 0.0, bd_compare(bd_curve(before), bd_curve(now), options).rate.value);
     } catch (const Error& error) {
       // A curve that has become exact may have too few points of finite PSNR left; its numbers tell that it is better.
       if (exact_from(now.curve) && !exact_from(before.curve))
         ++result_.without_bd;
       else
-        moved("bd_rate", "0", error.what(), kNone, Verdict::Regressed);
+        moved(kBdRate, "0", error.what(), kNone, Verdict::Regressed);
     }
   }
 
@@ -153,6 +164,8 @@ class Checker {
   const Baseline& run_;
   const CheckOptions& options_;
   const BaselineRow* before_ = nullptr;
+  const BaselineRow* now_ = nullptr;
+  int comparisons_ = 0;  ///< that chance may decide
   CheckResult result_;
 };
 

@@ -34,10 +34,12 @@ struct CheckOptions {
   bool times = true;
 };
 
-/// Holds a run to a baseline: rows are found by model and label; every number against its tolerance, the curve by its
-/// BD-rate over the baseline's, times in units of the reference task. A row that is gone, fails, or is made by other
-/// options or of another surface fails the check, and so does a check that compared no number; a row or number that is
-/// new does not. Infinite decibels are equal to each other and better than any others.
+/// Holds a run to a baseline: rows are found by model and label; every number against its tolerance or what chance
+/// explains, whichever is more, the curve by its BD-rate over the baseline's, times in units of the reference task. The
+/// deviations of the baseline's replicates say what chance explains, for as many replicates as the run has: of 20
+/// checks of a program that has not changed one may fail. A row that is gone, fails, or is made by other options or of
+/// another surface fails the check, and so does a check that compared no number; a row or number that is new does not.
+/// Infinite decibels are equal to each other and better than any others.
 CheckResult check(const Baseline& baseline, const Baseline& run, const CheckOptions& options);
 
 /// The result as JUnit XML, one test case a row.

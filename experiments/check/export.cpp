@@ -45,7 +45,7 @@ Json compressai_json(const StoredCell& cell) {
     psnr.push_back(point.psnr_db);
   }
   return {
-      {"name", cell.label},
+      {"name", cell.title()},
       {"description", cell.model + ": bpp is bits per input vertex, psnr is " + kPsnrDefinition + "; gsp " + version()},
       {"results", {{"psnr", psnr}, {"bpp", bpp}}}};
 }
@@ -56,7 +56,7 @@ Json batch_json(const std::string& label, const std::vector<StoredCell>& cells) 
     // Streams of their own for each size are made while they are measured, without a time of their own.
     const StageResult* encode = cell.options.mode == StreamMode::Fixed ? nullptr : cell.stage(StageKind::Encode);
     for (const CurvePoint& point : cell.points())
-      if (cell.label == label && exported(point))
+      if (cell.title() == label && exported(point))
         rows.push_back(
             {cell.model, point.bytes, point.psnr_db, encode ? Json(encode->seconds) : Json(0.0), point.bytes});
   }
@@ -74,11 +74,12 @@ Json batch_json(const std::string& label, const std::vector<StoredCell>& cells) 
           {"field_values", rows}};
 }
 
+// Replicates are curves of their own: the formats know no repetition.
 std::vector<std::string> labels_of(const std::vector<StoredCell>& cells) {
   std::vector<std::string> labels;
   for (const StoredCell& cell : cells)
-    if (cell.status == CellStatus::Done && std::find(labels.begin(), labels.end(), cell.label) == labels.end())
-      labels.push_back(cell.label);
+    if (cell.status == CellStatus::Done && std::find(labels.begin(), labels.end(), cell.title()) == labels.end())
+      labels.push_back(cell.title());
   return labels;
 }
 
@@ -110,7 +111,7 @@ std::vector<std::string> export_cells(const std::vector<StoredCell>& cells, cons
     case ExportFormat::CompressAI:
       for (const StoredCell& cell : cells)
         if (cell.status == CellStatus::Done)
-          write_json(next(cell.model + ' ' + cell.label, ".json"), compressai_json(cell));
+          write_json(next(cell.model + ' ' + cell.title(), ".json"), compressai_json(cell));
       break;
     case ExportFormat::CodecCompare:
       for (const std::string& label : labels_of(cells)) write_json(next(label, ".json"), batch_json(label, cells));

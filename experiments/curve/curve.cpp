@@ -1,5 +1,7 @@
 #include "experiments/curve/curve.h"
 
+#include <fmt/format.h>
+
 #include "experiments/curve/stages.h"
 
 namespace gsp {
@@ -45,15 +47,20 @@ CurveRun rate_distortion_curve(const Mesh& mesh, const std::string& model, const
     run.points.insert(run.points.end(), points.begin(), points.end());
     if (options.on_progress) options.on_progress(run);
   };
-  const std::vector<ParameterizeResult> results =
-      parameterize_all(mesh, options.methods, options.parameterize, progress);
-  if (!results.empty()) run.omega = results.front().omega;
-
   const Meter meter(mesh, model, options.seed);
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const std::string method = method_name(options.methods[i]);
-    Progress named = progress.within(method);
-    append(method_curve(results[i], method, options, meter, named));
+  for (int replicate = 0; replicate < options.replicates; ++replicate) {
+    CurveOptions once = options;
+    once.parameterize.replicate = replicate;
+    Progress repeated = options.replicates > 1
+                            ? progress.within(fmt::format("replicate {} of {}", replicate + 1, options.replicates))
+                            : progress;
+    const std::vector<ParameterizeResult> results = parameterize_all(mesh, once.methods, once.parameterize, repeated);
+    if (!results.empty() && replicate == 0) run.omega = results.front().omega;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      const std::string method = method_name(once.methods[i]);
+      Progress named = repeated.within(method);
+      append(method_curve(results[i], method, once, meter, named));
+    }
   }
   for (const std::string& anchor : anchor_words()) {
     if (!options.anchors) break;

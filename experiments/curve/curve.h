@@ -20,6 +20,7 @@ struct CurvePoint {
   std::string model;
   std::string method;  ///< gsp, maps, maps-smoothed, hybrid, or an anchor of `anchor_words`
   double gamma = 0.0, mu = 0.0;
+  int replicate = 0;
   int base_vertices = 0, base_faces = 0, level = 0;
   std::string wavelet, coder;
   std::size_t bytes = 0;
@@ -52,6 +53,9 @@ struct CurveOptions {
   std::vector<std::size_t> budgets;  ///< bytes; empty: 256, 512, 1024, ... up to the whole stream
   std::size_t samples = 200000;      ///< per direction and point; decimations, which have many points, take half
   std::uint64_t seed = 1;
+  /// How often the maps are made, 1 to kMostReplicates: as replicates 0, 1, ... of `parameterize`, whose own number
+  /// says nothing here. The anchors are measured once.
+  int replicates = 1;
   bool anchors = true;  ///< the curves of `anchor_words`
   /// Called with all that is measured so far after each method, so that an interrupt loses at most one of them.
   std::function<void(const CurveRun&)> on_progress;

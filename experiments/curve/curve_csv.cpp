@@ -19,6 +19,8 @@ namespace {
 CurvePoint point_of(const CsvRow& row) {
   CurvePoint point;
   for (const PointField& field : point_fields()) {
+    // A file from before there were replicates holds one of each, the first.
+    if (field.member == PointMember(&CurvePoint::replicate) && !row.has(field.name)) continue;
     // Decibels alone may be infinite (output/decibels.h).
     const auto* number = std::get_if<double CurvePoint::*>(&field.member);
     if (number && std::string_view(field.unit) == "dB" && row.text(field.name) == "inf")

@@ -19,6 +19,11 @@ const std::vector<PointField>& point_fields() {
        &P::method},
       {"gamma", "", "weight of triangle shape in the simplification's cost; 0 for the anchors", &P::gamma},
       {"mu", "", "weight of area dispersion in the simplification's cost; 0 for the anchors", &P::mu},
+      {"replicate", "",
+       "0: the surface as it is; others repeat the map with prices of vertex removals changed by at most 1e-7, to "
+       "learn "
+       "what chance does; 0 for the anchors, which have no such choice",
+       &P::replicate},
       {"base_vertices", "", "vertices of the base complex; 0 for the anchors", &P::base_vertices},
       {"base_faces", "", "faces of the base complex; 0 for the anchors", &P::base_faces},
       {"level", "", "quadrisections of the base complex; 0 for the anchors", &P::level},

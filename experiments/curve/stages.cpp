@@ -91,6 +91,7 @@ void describe(CurvePoint& row, const CellOptions& options, const RemeshShape& sh
   if (is_anchor(options.method)) return;
   row.gamma = options.parameterize.gamma;
   row.mu = options.parameterize.mu;
+  row.replicate = options.parameterize.replicate;
   row.base_vertices = shape.base_vertices;
   row.base_faces = shape.base_faces;
   row.level = shape.level;

@@ -39,17 +39,25 @@ constexpr int kPanelWidth = 640, kKeyWidth = 340;
 std::pair<double, double> byte_range(const std::vector<CurveSeries>& curves) {
   double low = 256.0, high = 1024.0;
   for (const CurveSeries& curve : curves)
-    for (const CurvePoint& p : curve.points) {
-      low = std::min(low, static_cast<double>(p.bytes));
-      if (p.remesh_error > 0.0) high = std::max(high, static_cast<double>(p.bytes));
-    }
+    for (const auto& [replicate, points] : curve.runs)
+      for (const CurvePoint& p : points) {
+        low = std::min(low, static_cast<double>(p.bytes));
+        if (p.remesh_error > 0.0) high = std::max(high, static_cast<double>(p.bytes));
+      }
   return {low, high};
 }
 
 // A ceiling that has a height: that of an exact remesh is infinite.
 std::optional<double> drawn_ceiling(const CurveSeries& curve) {
-  const std::optional<double> ceiling = ceiling_db(curve.points);
+  const std::optional<double> ceiling = ceiling_db(curve);
   return ceiling && std::isfinite(*ceiling) ? ceiling : std::nullopt;
+}
+
+// What of its spread has a height.
+std::vector<SpreadPoint> finite_spread(const CurveSeries& curve) {
+  std::vector<SpreadPoint> spread = spread_of(curve);
+  std::erase_if(spread, [](const SpreadPoint& point) { return std::isinf(point.mean_db); });
+  return spread;
 }
 
 // Up to a little above the highest ceiling: Draco, which has none, would push everything else down. Where no point has
@@ -59,7 +67,7 @@ std::string heights(const std::vector<CurveSeries>& curves) {
   bool any = false;
   for (const CurveSeries& curve : curves) {
     ceiling = std::max(ceiling, drawn_ceiling(curve).value_or(0.0));
-    any = any || !finite_part(envelope_of(curve.points)).empty();
+    any = any || !finite_spread(curve).empty();
   }
   if (ceiling > 0.0) return fmt::format("[*:{:.1f}]", ceiling + 3.0);
   return any ? "[*:*]" : "[0:100]";
@@ -83,8 +91,9 @@ std::string panel_data(const std::vector<CurveSeries>& curves, std::size_t panel
   std::string script;
   for (std::size_t m = 0; m < curves.size(); ++m) {
     script += data_name(panel, m) + " << EOD\n";
-    for (const RatePoint& point : finite_part(envelope_of(curves[m].points)))
-      script += fmt::format("{:.0f} {:.4f}\n", point.bytes, point.psnr_db);
+    for (const SpreadPoint& point : finite_spread(curves[m]))
+      script +=
+          fmt::format("{:.0f} {:.4f} {:.4f} {:.4f}\n", point.bytes, point.mean_db, point.lowest_db, point.highest_db);
     script += "EOD\n";
   }
   return script;
@@ -111,6 +120,9 @@ class Looks {
     return fmt::format("with linespoints lw {} pt {} ps {} lc rgb '{}'", i == 0 ? 4 : 2,
                        kPoints[static_cast<std::size_t>(again) % std::size(kPoints)], again ? 1.0 : 0.5, colors_[i]);
   }
+  std::string band(const std::string& name) const {
+    return fmt::format("with filledcurves fs transparent solid 0.2 noborder lc rgb '{}'", colors_[place(name)]);
+  }
   std::string ceiling(const std::string& name) const {
     return fmt::format("with lines dt 2 lw 1 lc rgb '{}'", color(name));
   }
@@ -124,8 +136,8 @@ class Looks {
 };
 
 // What a curve is called in the key: an exact size has no height, so it is told.
-std::string title_of(const CurveSeries& curve, const RateCurve& envelope) {
-  const std::optional<double> exact = exact_from(envelope);
+std::string title_of(const CurveSeries& curve) {
+  const std::optional<double> exact = exact_from(curve);
   return gnuplot_quoted(curve.name + (exact ? fmt::format(" (exact from {:.0f} bytes)", *exact) : std::string()));
 }
 
@@ -133,7 +145,7 @@ std::string title_of(const CurveSeries& curve, const RateCurve& envelope) {
 std::string exact_sizes(const std::vector<CurveSeries>& curves, const Looks& looks) {
   std::string commands = "unset arrow\n";
   for (const CurveSeries& curve : curves)
-    if (const std::optional<double> bytes = exact_from(envelope_of(curve.points)))
+    if (const std::optional<double> bytes = exact_from(curve))
       commands += fmt::format("set arrow from {0:.0f}, graph 0 to {0:.0f}, graph 1 nohead dt 3 lw 2 lc rgb '{1}'\n",
                               *bytes, looks.color(curve.name));
   return commands;
@@ -142,11 +154,13 @@ std::string exact_sizes(const std::vector<CurveSeries>& curves, const Looks& loo
 // The curves of a panel and its ceilings, for `plot`. A curve without finite PSNR has its place in the key alone.
 std::string panel_lines(const std::vector<CurveSeries>& curves, std::size_t index, const Looks& looks) {
   std::string lines;
+  for (std::size_t m = 0; m < curves.size(); ++m)
+    if (curves[m].runs.size() > 1 && !finite_spread(curves[m]).empty())
+      lines += fmt::format("{} using 1:3:4 {} notitle, \\\n     ", data_name(index, m), looks.band(curves[m].name));
   for (std::size_t m = 0; m < curves.size(); ++m) {
-    const RateCurve envelope = envelope_of(curves[m].points);
-    const std::string data = finite_part(envelope).empty() ? "NaN" : data_name(index, m) + " using 1:2";
-    lines += fmt::format("{}{} {} title {}", m ? ", \\\n     " : "", data, looks.curve(curves[m].name),
-                         title_of(curves[m], envelope));
+    const std::string data = finite_spread(curves[m]).empty() ? "NaN" : data_name(index, m) + " using 1:2";
+    lines +=
+        fmt::format("{}{} {} title {}", m ? ", \\\n     " : "", data, looks.curve(curves[m].name), title_of(curves[m]));
   }
   const bool few = curves.size() <= kFewCurves;
   std::set<double> ceilings;
@@ -176,7 +190,7 @@ std::string panels_with_key(const std::vector<PlotPanel>& panels, const Looks& l
                             panel_commands(panels[i], i, looks));
     for (const CurveSeries& curve : panels[i].second) {
       ceilings = ceilings || drawn_ceiling(curve);
-      exact = exact || exact_from(envelope_of(curve.points));
+      exact = exact || exact_from(curve);
     }
   }
   std::string entries;

@@ -17,7 +17,8 @@ std::vector<std::string> method_colors(const std::vector<std::string>& methods);
 
 /// The gnuplot program that draws panels side by side to NAME.png and NAME.svg in its working folder: PSNR over bytes
 /// (logarithmic), one line a curve, the first wider, remeshing ceilings dashed, sizes from which on a curve is exact
-/// dotted. The data stand in it, so it can be
+/// dotted. Of replicates the line is the mean and a band reaches from the lowest to the highest. The data stand in it,
+/// so it can be
 /// restyled and run again.
 std::string plot_script(const std::string& name, const std::vector<PlotPanel>& panels);
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "experiments/cells/cell_options.h"
 #include "experiments/curve/curve_csv.h"
@@ -39,6 +40,18 @@ void make_printable(Json& json) {
   if (json.is_string()) json = printable(json.get<std::string>());
   if (json.is_structured())
     for (Json& inside : json) make_printable(inside);
+}
+
+// What the page draws of several replicates: their mean, and a band around it.
+Json spread_json(const CurveSeries& series) {
+  Json points = Json::array();
+  for (const SpreadPoint& p : spread_of(series)) {
+    Json point = {{"bytes", p.bytes}};
+    put_db(point, "psnr_db", p.mean_db);
+    point.update({{"low_db", optional(p.lowest_db)}, {"high_db", optional(p.highest_db)}});
+    points.push_back(point);
+  }
+  return points;
 }
 
 class Report {
@@ -79,8 +92,10 @@ class Report {
   /// The cells of a model that the 3D view shows: the reference first.
   std::vector<const StoredCell*> viewed_cells(const StoredModel& model) const {
     std::vector<const StoredCell*> cells;
+    std::set<std::string> taken;  // of replicates the first
     for (const StoredCell& cell : run_.cells)
-      if (cell.model == model.name && cell.status == CellStatus::Done && !cell.artefact("stream").empty())
+      if (cell.model == model.name && cell.status == CellStatus::Done && !cell.artefact("stream").empty() &&
+          taken.insert(cell.label).second)
         cells.push_back(&cell);
     std::stable_partition(cells.begin(), cells.end(),
                           [&](const StoredCell* c) { return c->label == result_.findings.reference; });
@@ -109,43 +124,59 @@ class Report {
     }
   }
 
-  Json curve_json(const StoredCell& cell, const MethodSummary* summary) const {
-    Json points = Json::array();
+  /// Of the cells that share a label on a model: numbers that have no mean are the first one's.
+  Json curve_json(const StoredCell& cell, const CurveSeries* series, const MethodSummary* summary) const {
+    Json points = Json::array(), bytes_at = Json::array();
     std::string positions;
-    for (const CurvePoint& p : cell.points()) {
-      if (on_a_curve(p)) points.push_back(measured_json(p));
-      positions = further_option(p.options, "positions");
-    }
-    Json bytes_at = Json::array();
+    if (series)
+      for (const auto& [replicate, run] : series->runs)
+        for (const CurvePoint& p : run) {
+          positions = further_option(p.options, "positions");
+          if (!on_a_curve(p)) continue;
+          points.push_back(measured_json(p));
+          points.back()["replicate"] = replicate;
+        }
     for (std::size_t i = 0; i < std::size(kTableLevelsDb); ++i)
       bytes_at.push_back(summary ? optional(summary->bytes_at[i]) : Json());
     const Comparison* comparison = result_.findings.comparison(cell.model, cell.label);
     const auto view = views_.find({cell.model, cell.label});
-    const bool anchor = is_anchor(cell.options.method);
-    Json curve = {
-        {"label", cell.label}, {"method", cell.options.method}, {"mode", stream_mode_name(cell.options.mode)}};
-    put_db(curve, "ceiling_db", ceiling_db(cell.points()));
-    curve.update({{"base_vertices", optional(cell.number("base_vertices"))},
-                  {"level", optional(cell.number("level"))},
-                  {"positions", positions.empty() ? Json() : Json(positions)},
-                  {"remesh_error", optional(cell.number("remesh_error"))},
-                  {"paper_error", anchor ? Json() : optional(run_.paper_error(cell.model))},
-                  {"bytes_at", bytes_at},
-                  {"bd_rate", comparison ? optional(comparison->bd_rate) : Json()},
-                  {"bd_note", comparison ? comparison->note : ""},
-                  {"view", view == views_.end() ? Json() : Json(view->second)},
-                  {"points", points}});
+    const std::optional<double> ceiling = summary ? summary->ceiling_db : std::nullopt;
+    Json curve = {{"label", cell.label},
+                  {"method", cell.options.method},
+                  {"mode", stream_mode_name(cell.options.mode)},
+                  {"replicates", series ? series->runs.size() : 0}};
+    put_db(curve, "ceiling_db", ceiling);
+    curve.update(
+        {{"base_vertices", optional(cell.number("base_vertices"))},
+         {"level", optional(cell.number("level"))},
+         {"positions", positions.empty() ? Json() : Json(positions)},
+         {"remesh_error", ceiling ? Json(std::pow(10.0, -*ceiling / 20.0)) : Json()},
+         {"paper_error", is_anchor(cell.options.method) ? Json() : optional(run_.paper_error(cell.model))},
+         {"bytes_at", bytes_at},
+         {"bd_rate", comparison ? optional(comparison->bd_rate) : Json()},
+         {"bd_interval",
+          comparison && comparison->interval ? Json{comparison->interval->low, comparison->interval->high} : Json()},
+         {"bd_note", comparison ? comparison->note : ""},
+         {"view", view == views_.end() ? Json() : Json(view->second)},
+         {"spread", series && series->runs.size() > 1 ? spread_json(*series) : Json()},
+         {"points", points}});
     return curve;
   }
 
   Json model_json(const StoredModel& model) const {
-    const CurveSummary summary = summarize(model.name, run_.curves(model.name));
+    const std::vector<CurveSeries> series = run_.curves(model.name);
+    const CurveSummary summary = summarize(model.name, series);
     Json curves = Json::array();
+    std::set<std::string> told;
     for (const StoredCell& cell : run_.cells) {
-      if (cell.model != model.name) continue;
-      const auto row = std::find_if(summary.methods.begin(), summary.methods.end(),
-                                    [&](const MethodSummary& m) { return m.method == cell.label; });
-      curves.push_back(curve_json(cell, row == summary.methods.end() ? nullptr : &*row));
+      if (cell.model != model.name || !told.insert(cell.label).second) continue;
+      // Summaries are in the order of the series.
+      const auto found =
+          std::find_if(series.begin(), series.end(), [&](const CurveSeries& s) { return s.name == cell.label; });
+      const bool known = found != series.end();
+      curves.push_back(
+          curve_json(cell, known ? &*found : nullptr,
+                     known ? &summary.methods[static_cast<std::size_t>(found - series.begin())] : nullptr));
     }
     return {{"name", model.name}, {"vertices", model.vertices}, {"faces", model.faces}, {"curves", curves}};
   }
@@ -156,7 +187,7 @@ class Report {
     for (const StoredCell& cell : run_.cells)
       if (cell.status == CellStatus::Failed)
         failures.push_back(
-            {{"model", cell.model}, {"label", cell.label}, {"cause", cell.cause}, {"failure", cell.failure}});
+            {{"model", cell.model}, {"label", cell.title()}, {"cause", cell.cause}, {"failure", cell.failure}});
     for (const RunFigure& f : figures) pictures.push_back({{"png", f.png}, {"svg", f.svg}, {"caption", f.caption}});
     return {{"name", run_.name},
             {"about", fmt::format("{} model{}, {} cells, gsp {}", run_.models.size(),

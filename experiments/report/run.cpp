@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "experiments/cells/cell_options.h"
 #include "experiments/curve/curve_csv.h"
@@ -34,6 +35,7 @@ StoredCell first_of(const CurvePoint& point, const fs::path& folder) {
   cell.options.method = point.method;
   cell.options.parameterize.gamma = point.gamma;
   cell.options.parameterize.mu = point.mu;
+  cell.options.parameterize.replicate = point.replicate;
   const std::string positions = further_option(point.options, "positions");
   for (Positions p : kPositions)
     if (positions == positions_name(p)) cell.options.remesh.positions = p;
@@ -65,7 +67,9 @@ Run read_curve_folder(const fs::path& folder) {
       StoredModel& model = run.models.emplace_back();
       model.name = point.model;
     }
-    const auto same = [&](const StoredCell& c) { return c.model == point.model && c.label == label; };
+    const auto same = [&](const StoredCell& c) {
+      return c.model == point.model && c.label == label && c.options.parameterize.replicate == point.replicate;
+    };
     auto cell = std::find_if(run.cells.begin(), run.cells.end(), same);
     if (cell == run.cells.end()) cell = run.cells.insert(run.cells.end(), first_of(point, folder));
     cell->stages.back().points.push_back(std::move(point));
@@ -83,7 +87,8 @@ Varying varying_axes(const std::vector<StoredCell>& cells) {
   for (const StoredCell& cell : cells) {
     const StoredCell* other = first.try_emplace({cell.model, cell.options.method}, &cell).first->second;
     for (const Axis& axis : axes())
-      if (axis.get(cell.options) != axis.get(other->options)) varying[cell.options.method].insert(axis.name);
+      if (!axis.repeats && axis.get(cell.options) != axis.get(other->options))
+        varying[cell.options.method].insert(axis.name);
   }
   return varying;
 }
@@ -93,13 +98,13 @@ Varying varying_axes(const std::vector<StoredCell>& cells) {
 void relabel(std::vector<StoredCell>& cells) {
   Varying varying = varying_axes(cells);
   std::vector<std::string> labels;
-  std::set<std::pair<std::string, std::string>> taken;
+  std::set<std::tuple<std::string, std::string, int>> taken;
   for (const StoredCell& cell : cells) {
     std::string& label = labels.emplace_back(cell.options.method);
     for (const Axis& axis : axes())
       if (varying[cell.options.method].contains(axis.name))
         label += ' ' + std::string(axis.name) + '=' + to_string(axis.get(cell.options));
-    if (!taken.emplace(cell.model, label).second) return;
+    if (!taken.emplace(cell.model, label, cell.options.parameterize.replicate).second) return;
   }
   for (std::size_t i = 0; i < cells.size(); ++i) cells[i].label = labels[i];
 }
@@ -126,9 +131,7 @@ std::vector<std::string> Run::labels() const {
 std::vector<CurveSeries> Run::curves(const std::string& wanted) const {
   std::vector<CurveSeries> curves;
   for (const StoredCell& cell : cells) {
-    if (cell.model != wanted) continue;
-    if (std::vector<CurvePoint> points = cell.points(); !points.empty())
-      curves.push_back({cell.label, std::move(points)});
+    if (cell.model == wanted) add_run(curves, cell.label, cell.options.parameterize.replicate, cell.points());
   }
   return curves;
 }

@@ -88,7 +88,7 @@ std::vector<const StoredCell*> mapped_cells(const Run& run, const Findings& foun
     const auto taken = std::find_if(cells.begin(), cells.end(), same);
     if (taken == cells.end())
       cells.push_back(&cell);
-    else if (cell.label == found.reference)
+    else if (cell.label == found.reference && (*taken)->label != found.reference)
       *taken = &cell;
   }
   std::stable_partition(cells.begin(), cells.end(), [&](const StoredCell* c) { return c->label == found.reference; });

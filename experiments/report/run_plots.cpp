@@ -59,16 +59,24 @@ std::vector<std::string> curve_colors(const Run& run, const std::vector<std::str
   return chosen;
 }
 
-/// The labels of a model's finished maps, in the order of the run.
 bool has_map(const StoredCell& cell) {
   return cell.status == CellStatus::Done && cell.number("remesh_error").has_value();
+}
+
+/// Over the replicates; empty where none has a map.
+std::optional<double> mean_remesh_error(const Run& run, const std::string& model, const std::string& label) {
+  double sum = 0.0;
+  int count = 0;
+  for (const StoredCell& cell : run.cells)
+    if (cell.model == model && cell.label == label && has_map(cell)) sum += *cell.number("remesh_error"), ++count;
+  return count > 0 ? std::optional(sum / count) : std::nullopt;
 }
 
 /// The two numeric options that vary within a model for the method; fewer or more than two where there is no such pair.
 std::vector<const Axis*> varying_numbers(const Run& run, const std::string& method) {
   std::vector<const Axis*> varying;
   for (const Axis& axis : axes()) {
-    if (axis.kind == Axis::Kind::Word) continue;
+    if (axis.kind == Axis::Kind::Word || axis.repeats) continue;
     std::map<std::string, std::set<std::string>> values;
     for (const StoredCell& cell : run.cells)
       if (cell.options.method == method) values[cell.model].insert(to_string(axis.get(cell.options)));
@@ -115,7 +123,7 @@ template <class Value>
 std::string heat_rows(const Run& run, const std::string& method, const Scale& x, const Scale& y, const Value& value) {
   std::map<std::pair<std::size_t, std::size_t>, std::string> rows;
   for (const StoredCell& cell : run.cells) {
-    if (cell.options.method != method) continue;
+    if (cell.options.method != method || cell.options.parameterize.replicate > 0) continue;
     const std::optional<double> v = value(cell.label);
     rows[{y.place(cell), x.place(cell)}] =
         value_or_missing(v) + ' ' + (v ? fmt::format("{:+.1f}", *v) : std::string("–"));
@@ -182,8 +190,9 @@ void heat_figure(const Run& run, const Findings& found, const std::string& folde
 
   std::vector<std::pair<std::string, std::string>> panels;
   panels.emplace_back("mean of the models", heat_rows(run, method, x, y, [&](const std::string& label) {
-                        int models = 0;
-                        return label == found.reference ? std::optional(0.0) : found.mean_bd_rate(label, models);
+                        if (label == found.reference) return std::optional(0.0);
+                        const auto mean = found.mean(label);
+                        return mean ? std::optional(mean->bd_rate) : std::nullopt;
                       }));
   for (const StoredModel& model : run.models)
     if (panels.size() <= kMostPanels)
@@ -240,10 +249,7 @@ void error_figure(const Run& run, const std::string& folder, std::vector<RunFigu
   for (const StoredModel& model : run.models) {
     rows += gnuplot_field(model.name);
     for (const std::string& label : labels) {
-      const auto cell = std::find_if(run.cells.begin(), run.cells.end(), [&](const StoredCell& c) {
-        return c.model == model.name && c.label == label && has_map(c);
-      });
-      rows += ' ' + value_or_missing(cell == run.cells.end() ? std::nullopt : cell->number("remesh_error"), 1e5);
+      rows += ' ' + value_or_missing(mean_remesh_error(run, model.name, label), 1e5);
     }
     const auto published = run.paper_error(model.name);
     paper = paper || published;

@@ -32,7 +32,8 @@ class Labels {
             found.insert(value);
             if (found.size() > 1) varying_.insert({cell.method, option});
           };
-          for (const Axis& axis : axes()) add(axis.name, to_string(axis.get(cell)));
+          for (const Axis& axis : axes())
+            if (!axis.repeats) add(axis.name, to_string(axis.get(cell)));
           add("budgets", budget_text(cell));
         }
   }

@@ -83,10 +83,10 @@ std::vector<CurveSummary> summaries_of(const std::vector<StoredCell>& cells) {
     std::vector<CurveSeries> curves;
     CurveSummary failed;
     for (next = first; next < cells.size() && cells[next].model == cells[first].model; ++next) {
-      curves.push_back({cells[next].label, cells[next].points()});
+      add_run(curves, cells[next].label, cells[next].options.parameterize.replicate, cells[next].points());
       if (!failed.cause.empty() || cells[next].cause.empty()) continue;
       failed.cause = cells[next].cause;
-      failed.failure = cells[next].label + ": " + cells[next].failure;
+      failed.failure = cells[next].title() + ": " + cells[next].failure;
     }
     CurveSummary& summary = summaries.emplace_back(summarize(cells[first].model, curves));
     summary.cause = failed.cause;

@@ -7,6 +7,7 @@
 
 #include "mesh/error.h"
 #include "mesh/parallel.h"
+#include "mesh/random.h"
 #include "param/removal/removal_cost.h"
 #include "param/removal/vertex_map.h"
 #include "param/simplify/automatic_stop.h"
@@ -29,6 +30,10 @@ constexpr int kSmallestLevel = 1000;
 constexpr int kBatchShare = 64;  // vertices of the complex for each of those that are priced side by side
 constexpr int kBlocks = 8, kLargestBlock = 16;  // of such a batch
 constexpr int kLevelPerBase = 24;               // vertices of the coarsest level for each of the base
+
+// Largest relative change of a price from one replicate to another. A price is taken at no more than 32 points of a
+// star (RemovalCost::kSamples), so it means far fewer digits than this changes.
+constexpr double kPriceNoise = 1e-7;
 
 int used_vertices(const Surface& surface) {
   return static_cast<int>(std::count_if(surface.halfedges.outgoing.begin(), surface.halfedges.outgoing.end(),
@@ -66,6 +71,7 @@ class Simplifier {
     std::vector<int> face;    ///< per triangle of the complex
   };
 
+  double price(int vertex) const;
   void price_all();
   void price_next(int vertex);
   void remove_down_to(int target);
@@ -98,6 +104,15 @@ class Simplifier {
   std::vector<Triangle> filling_;
 };
 
+/// What the removal costs, by which vertices are queued: its Ω, but for a replicate's chance.
+double Simplifier::price(int vertex) const {
+  const double omega = candidates_[vertex].parts.omega();
+  if (options_.replicate == 0) return omega;
+  // A generator of its own for each vertex, so that its factor does not depend on the order of the prices.
+  Random random(static_cast<std::uint64_t>(options_.replicate) << 32 | static_cast<std::uint32_t>(vertex));
+  return omega * (1.0 + kPriceNoise * (2.0 * random.uniform() - 1.0));
+}
+
 void Simplifier::price_all() {
   const int count = surface_->mesh.vertex_count();
   candidates_.resize(count);
@@ -111,7 +126,7 @@ void Simplifier::price_all() {
   queued_.assign(count, 0);
   for (int v = 0; v < count; ++v) {
     if (!candidates_[v].feasible) continue;
-    queue_.push({candidates_[v].parts.omega(), v, 0});
+    queue_.push({price(v), v, 0});
     queued_[v] = 1;
   }
 }
@@ -148,7 +163,7 @@ void Simplifier::price_next(int vertex) {
     stale_[v] = 0;
     queued_[v] = candidates_[v].feasible;
     ++stamp_[v];
-    if (queued_[v]) queue_.push({candidates_[v].parts.omega(), v, stamp_[v]});
+    if (queued_[v]) queue_.push({price(v), v, stamp_[v]});
   }
 }
 

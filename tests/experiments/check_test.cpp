@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "mesh/error.h"
+#include "metrics/bootstrap.h"
 #include "temporary_folder.h"
 
 using namespace gsp;
@@ -20,7 +21,9 @@ Baseline sample_run() {
                     .label = label,
                     .options = {{"gamma", "2"}},
                     .cause = {},
+                    .replicates = 1,
                     .numbers = {},
+                    .deviations = {},
                     .times = {},
                     .curve = {},
                     .ceiling_db = 95.0,
@@ -212,4 +215,92 @@ TEST_CASE("what is no baseline is refused in our words, with the line or the key
             .find("model") != std::string::npos);
   CHECK(refusal("{\"gsp_baseline\": 1, \"recipe\": \"r\", \"version\": \"v\", \"tolerances\": [3], \"rows\": {}}") !=
         "accepted");
+}
+
+namespace {
+
+// A cell of a run of replicates: a straight curve that chance moves up or down, with a remesh of that error.
+StoredCell replicate(int number, double moved_db, double remesh_error) {
+  StoredCell cell;
+  cell.model = "torus";
+  cell.label = "gsp";
+  cell.options.parameterize.replicate = number;
+  cell.options.budgets = {512, 2048};
+  cell.status = CellStatus::Done;
+  StageResult remesh, measure;
+  remesh.kind = StageKind::Remesh;
+  remesh.numbers = {{"remesh_error", remesh_error}, {"level", 4}};
+  measure.kind = StageKind::Measure;
+  for (int octave = 0; octave < 9; ++octave) {
+    CurvePoint& point = measure.points.emplace_back();
+    point.bytes = std::size_t{256} << octave;
+    point.psnr_db = 40.0 + 5.0 * octave + moved_db;
+  }
+  cell.stages = {remesh, measure};
+  return cell;
+}
+
+}  // namespace
+
+TEST_CASE("a baseline of replicates is their mean with their deviations, also by way of a file") {
+  const std::vector<double> moves = {0.3, -0.1, 0.0, -0.2};
+  std::vector<StoredCell> cells;
+  for (int r = 0; r < 4; ++r) cells.push_back(replicate(r, moves[r], 1e-5 * (1.0 + 0.01 * r)));
+  const TemporaryFolder folder;
+  write_baseline(folder.file("b.json"), baseline_of("smoke", cells));
+  const Baseline baseline = read_baseline(folder.file("b.json"));
+  REQUIRE(baseline.rows.size() == 1);
+  const BaselineRow& row = baseline.rows.front();
+  CHECK(row.replicates == 4);
+  CHECK(row.options.count("replicate") == 0);
+  CHECK(row.numbers.at("psnr_db at 512 bytes") == Approx(45.0));
+  CHECK(row.deviations.at("psnr_db at 512 bytes") == Approx(std::sqrt(0.14 / 3.0)));
+  CHECK(row.numbers.at("remesh_error") == Approx(1.015e-5));
+  CHECK(row.deviations.count("level") == 0);
+  // 5 dB an octave: a tenth of a dB is 1/50 of an octave, 1.4%.
+  CHECK(row.deviations.at("bd_rate") == Approx(std::sqrt(0.14 / 3.0) / 5.0 * std::log(2.0) * 100.0).epsilon(0.03));
+  CHECK(row.curve[1].psnr_db == Approx(45.0));
+}
+
+TEST_CASE("what is exact in some replicates alone is in no mean, and what is exact in all stays exact") {
+  std::vector<StoredCell> cells = {replicate(0, 0.0, 1e-5), replicate(1, 0.2, 1e-5)};
+  const auto make_exact = [](StoredCell& cell, std::size_t from) {
+    for (CurvePoint& point : cell.stages.back().points)
+      if (point.bytes >= from) point.psnr_db = std::numeric_limits<double>::infinity();
+  };
+  make_exact(cells[0], 2048);
+  const BaselineRow some = baseline_of("smoke", cells).rows.front();
+  CHECK(some.numbers.at("psnr_db at 512 bytes") == Approx(45.1));
+  CHECK(some.numbers.count("psnr_db at 2048 bytes") == 0);
+  CHECK(some.deviations.count("psnr_db at 2048 bytes") == 0);
+  CHECK(some.curve.back().bytes == 1024.0);
+
+  make_exact(cells[1], 2048);
+  const TemporaryFolder folder;
+  write_baseline(folder.file("b.json"), baseline_of("smoke", cells));
+  const Baseline all = read_baseline(folder.file("b.json"));
+  CHECK(all.rows.front().numbers.at("psnr_db at 2048 bytes") == std::numeric_limits<double>::infinity());
+  CHECK(all.rows.front().deviations.count("psnr_db at 2048 bytes") == 0);
+  CHECK(*exact_from(all.rows.front().curve) == 2048.0);
+  CHECK(check(all, baseline_of("smoke", cells), {}).passed());
+}
+
+TEST_CASE("what chance explains is no regression, and what it does not is one") {
+  const std::vector<double> moves = {0.3, -0.1, 0.0, -0.2, 0.25, -0.25, 0.1, -0.1};
+  std::vector<StoredCell> cells;
+  for (int r = 0; r < 8; ++r) cells.push_back(replicate(r, moves[r], 1e-5));
+  const Baseline baseline = baseline_of("smoke", cells);
+  // Numbers that chance may decide: three, level, and the BD-rate.
+  const double deviation = baseline.rows.front().deviations.at("psnr_db at 512 bytes");
+  const double quantile = student_quantile(1.0 - 0.025 / 5.0, 7.0);
+  const auto passes = [&](double moved_db, int replicates) {
+    std::vector<StoredCell> run;
+    for (int r = 0; r < replicates; ++r) run.push_back(replicate(100 + r, moved_db, 1e-5));
+    return check(baseline, baseline_of("smoke", run), {}).passed();
+  };
+  const double one = quantile * deviation * std::sqrt(1.0 / 8.0 + 1.0), four = quantile * deviation * std::sqrt(0.375);
+  CHECK(passes(-0.97 * one, 1));
+  CHECK_FALSE(passes(-1.03 * one, 1));
+  CHECK(passes(-0.97 * four, 4));
+  CHECK_FALSE(passes(-1.03 * four, 4));
 }

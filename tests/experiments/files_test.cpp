@@ -108,8 +108,24 @@ TEST_CASE("an infinite PSNR survives curve.csv and ends its curve; the lossless 
   CHECK(read[1].psnr_db == infinite);
   CHECK(envelope_of(read).size() == 2);
   CHECK(*exact_from(envelope_of(read)) == 200);
-  const CurveSummary summary = summarize("cube", {{"draco", read}});
+  const CurveSummary summary = summarize("cube", curves_of(read));
   CHECK(summary.methods.at(0).lossless_bytes == 300);
+}
+
+TEST_CASE("a curve.csv from before there were replicates is read as the first of each") {
+  const TemporaryFolder folder;
+  CurvePoint point = sample_point("cube", "gsp", 100, 60.0);
+  point.replicate = 3;
+  write_curve_csv(folder.file("curve.csv"), {point});
+  CHECK(read_curve_csv(folder.file("curve.csv")).at(0).replicate == 3);
+  std::string text = read_text(folder.file("curve.csv"));
+  text.replace(text.find(",replicate,"), 11, ",");
+  text.replace(text.rfind(",3,"), 3, ",");
+  std::ofstream(folder.file("old.csv")) << text;
+  const std::vector<CurvePoint> old = read_curve_csv(folder.file("old.csv"));
+  REQUIRE(old.size() == 1);
+  CHECK(old[0].replicate == 0);
+  CHECK(old[0].bytes == 100);
 }
 
 TEST_CASE("decimation sizes fall from the surface itself") {

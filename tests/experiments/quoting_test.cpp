@@ -100,7 +100,7 @@ TEST_CASE("gnuplot draws a thousand random names and runs none of them") {
       low.bytes = 256;
       high.bytes = 1024;
       high.psnr_db = 10.0 + i;
-      curves.push_back({name, {low, high}});
+      curves.push_back({name, {{0, CurvePoints{low, high}}}});
       fields += gnuplot_field(name) + '\n';
       comments += "# " + gnuplot_comment(name) + '\n';
       CHECK(is_one_plain_line(gnuplot_quoted(name)));

@@ -157,7 +157,7 @@ TEST_CASE("what a recipe cannot mean is refused with the line") {
 TEST_CASE("models given instead replace those of the recipe, also where those are not there") {
   const TemporaryFolder folder;
   std::ofstream(folder.file("study.toml")) << "models = [\"no/such.ply\"]\n";
-  const Recipe recipe = read_recipe(folder.file("study.toml"), {"shape:dish"});
+  const Recipe recipe = read_recipe(folder.file("study.toml"), {{"shape:dish"}, {}});
   CHECK(recipe.blocks.front().models == std::vector<std::string>{"shape:dish"});
 }
 
@@ -165,7 +165,7 @@ TEST_CASE("a model given instead keeps the keys of the recipe's model that is ca
   const TemporaryFolder folder;
   std::ofstream(folder.file("study.toml")) << "models = [{ path = \"no/such/horse*.ply\", base_vertices = 140 }]\n";
   for (const char* name : {"horse_48485.off", "cow.off"}) std::ofstream(folder.file(name)) << "OFF\n";
-  const Recipe recipe = read_recipe(folder.file("study.toml"), {folder.file("*.off"), folder.file("cow.off")});
+  const Recipe recipe = read_recipe(folder.file("study.toml"), {{folder.file("*.off"), folder.file("cow.off")}, {}});
   REQUIRE(recipe.blocks.size() == 2);
   CHECK(recipe.blocks[0].models == std::vector<std::string>{folder.file("cow.off")});
   CHECK(recipe.blocks[0].cells[0].parameterize.base_vertices == 0);
@@ -189,7 +189,7 @@ TEST_CASE("the recipes that come with the program say what they mean, and descri
   int recipes = 0;
   for (const auto& entry : std::filesystem::directory_iterator("experiments/recipes")) {
     CAPTURE(entry.path());
-    const Recipe recipe = read_recipe(entry.path().string(), {"shape:torus"});
+    const Recipe recipe = read_recipe(entry.path().string(), {{"shape:torus"}, {}});
     CHECK(recipe.name == entry.path().stem());
     CHECK_FALSE(recipe.description.empty());
     CHECK_FALSE(recipe.blocks.empty());
@@ -216,4 +216,30 @@ TEST_CASE("a recipe says which vertices of its surfaces are joined, and may begi
   for (const char* weld : {"\"near\"", "-1", "0.5", "nan", "[0.001]", "true"})
     CHECK(says(refusal(std::string("weld = ") + weld), "weld is not"));
   CHECK(recipe_of("\xef\xbb\xbfmodels = [\"shape:torus\"]\nweld = 0\n").read.weld == 0.0);
+}
+
+TEST_CASE("replicates = N are N cells that differ in the replicate alone, once for the anchors") {
+  const Recipe recipe =
+      recipe_of("models = [\"shape:torus\"]\nmethod = [\"gsp\", \"draco\"]\ngamma = [0, 1]\nreplicates = 3\n");
+  const std::vector<CellOptions>& cells = recipe.blocks.front().cells;
+  REQUIRE(cells.size() == 2 * 3 + 1);
+  for (int r = 0; r < 3; ++r) {
+    CHECK(cells[static_cast<std::size_t>(r)].parameterize.gamma == 0.0);
+    CHECK(cells[static_cast<std::size_t>(r)].parameterize.replicate == r);
+  }
+  CHECK(cells.back().method == "draco");
+  CHECK(cells.back().parameterize.replicate == 0);
+
+  CHECK(recipe_of("models = [\"shape:torus\"]\nreplicate = [4, 9]\n").blocks.front().cells[1].parameterize.replicate ==
+        9);
+  CHECK(says(refusal("replicates = 0"), "replicates is no integer of 1 to 1000"));
+  CHECK(says(refusal("replicates = [2]"), "replicates is no integer"));
+  CHECK(says(refusal("replicates = 2\nreplicate = 1"), "give one of them"));
+  CHECK(says(refusal("replicate = -1"), "replicate: -1 is not"));
+
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("study.toml")) << "models = [\"shape:torus\"]\nreplicate = [4, 9, 11]\n";
+  const Recipe overridden = read_recipe(folder.file("study.toml"), {{}, 2});
+  REQUIRE(overridden.blocks.front().cells.size() == 2);
+  CHECK(overridden.blocks.front().cells[1].parameterize.replicate == 1);
 }

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 using namespace gsp;
@@ -9,11 +10,13 @@ using namespace gsp;
 namespace {
 
 // A method whose curve gains 5 dB per octave from 256 bytes on until it meets its ceiling.
-void add_method(std::vector<CurvePoint>& points, const std::string& method, double db_at_256, double ceiling_db) {
+void add_method(std::vector<CurvePoint>& points, const std::string& method, double db_at_256, double ceiling_db,
+                int replicate = 0) {
   for (int octave = 0; octave <= 10; ++octave) {
     CurvePoint point;
     point.model = "model";
     point.method = method;
+    point.replicate = replicate;
     point.bytes = std::size_t{256} << octave;
     point.psnr_db = std::min(db_at_256 + 5.0 * octave, ceiling_db > 0.0 ? ceiling_db : 1e9);
     point.remesh_error = ceiling_db > 0.0 ? std::pow(10.0, -ceiling_db / 20.0) : 0.0;
@@ -100,9 +103,10 @@ TEST_CASE("the table names failures, means and the definition of its numbers") {
   std::ostringstream out;
   print_summaries(out, {summarize("model", curves_of(points)), failed});
   const std::string text = out.str();
-  for (const char* part : {"FAILED (non-manifold-edge): an edge has three faces (edge 7)", "+3.00 dB",
-                           "gsp over maps-smoothed: +3.00 dB (1 of 2 models), BD-rate -34.0% (1 of 2 models)",
-                           "PSNR = 20 log10", "ceiling:", "  sampled  "})
+  for (const char* part :
+       {"FAILED (non-manifold-edge): an edge has three faces (edge 7)", "+3.00 dB",
+        "gsp over maps-smoothed: +3.00 dB (1 of 2 models, one run), BD-rate -34.0% (1 of 2 models, one run)",
+        "PSNR = 20 log10", "ceiling:", "  sampled  "})
     CHECK(text.find(part) != std::string::npos);
 }
 
@@ -133,4 +137,90 @@ TEST_CASE("an exact remesh has an infinite ceiling and an exact curve no BD-rate
   print_summaries(out, {summary});
   CHECK(out.str().find("exact from 300 bytes on") != std::string::npos);
   CHECK(out.str().find("inf") == out.str().find("infinite"));
+}
+
+TEST_CASE("replicates are paired, and their means have the intervals of what was put in") {
+  // Chance moves both methods of a replicate together by far more than it moves their difference.
+  const std::vector<double> chance = {0.0, 2.0, -1.5, 1.0}, gains = {3.0, 3.5, 2.5, 3.2};
+  std::vector<CurvePoint> points;
+  for (int r = 0; r < 4; ++r) {
+    add_method(points, "gsp", 43.0 + chance[r], 90.0, r);
+    add_method(points, "maps", 43.0 + chance[r] - gains[r], 90.0, r);
+  }
+  add_method(points, "draco", 35.0, 0.0);
+  const CurveSummary summary = summarize("model", curves_of(points));
+  REQUIRE(summary.methods.size() == 3);
+  CHECK(summary.methods[0].replicates == 4);
+  const MethodSummary& maps = summary.methods[1];
+  REQUIRE(maps.gain_interval);
+  CHECK(maps.gain->mean_db == Approx(3.05));
+  // Student's t of three degrees of freedom on the standard error of the four gains.
+  const double width = 2.0 * 3.18245 * std::sqrt(sample_variance(gains) / 4.0);
+  CHECK(maps.gain_interval->high - maps.gain_interval->low == Approx(width));
+  // 5 dB an octave: the mean of the logarithms is that of the gains.
+  CHECK(maps.bd->rate.value == Approx(100.0 * (std::exp2(-3.05 / 5.0) - 1.0)));
+  REQUIRE(maps.bd_interval);
+  CHECK(std::log2((100.0 + maps.bd_interval->high) / (100.0 + maps.bd_interval->low)) == Approx(width / 5.0));
+
+  // The anchor has one run, which goes with each of gsp's.
+  const MethodSummary& draco = summary.methods[2];
+  CHECK(draco.replicates == 1);
+  CHECK(draco.gains.size() == 4);
+  CHECK(draco.gain->mean_db == Approx(8.0 + 0.375));
+
+  std::ostringstream out;
+  print_summaries(out, {summary, summary});
+  CHECK(out.str().find("(2 of 2 models, 4 replicates)") == std::string::npos);
+  CHECK(out.str().find("on these models alone") != std::string::npos);
+  CHECK(out.str().find("2 of 2 models, 4 replicates)") != std::string::npos);
+}
+
+TEST_CASE("means over models are those of the models, and their intervals about models or about chance") {
+  std::vector<CurveSummary> summaries;
+  const std::vector<double> by_model = {2.0, 4.0, 9.0};
+  for (double gain : by_model) {
+    std::vector<CurvePoint> points;
+    for (int r = 0; r < 3; ++r) {
+      add_method(points, "gsp", 50.0, 100.0, r);
+      add_method(points, "maps", 50.0 - gain + 0.1 * (r - 1), 100.0, r);
+    }
+    summaries.push_back(summarize("model " + std::to_string(summaries.size()), curves_of(points)));
+  }
+  const MeanGain mean = mean_gain_over(summaries, "maps");
+  REQUIRE(mean.gain_db);
+  CHECK(mean.gain_db->value == Approx(5.0));
+  CHECK(mean.gain_db->models == 3);
+  CHECK(mean.gain_db->replicates == 3);
+  const MeanInterval &surfaces = *mean.gain_db->of_surfaces, &here = *mean.gain_db->of_models;
+  CHECK(surfaces.high - surfaces.low == Approx(2.0 * 4.30265 * std::sqrt(sample_variance(by_model) / 3.0)));
+  // Each model's mean has the variance 0.01/3, theirs a ninth of the sum; six degrees of freedom.
+  CHECK(here.high - here.low == Approx(2.0 * 2.44691 * std::sqrt(0.01 / 9.0)));
+  CHECK(mean.bd_rate->value == Approx(100.0 * (std::exp2(-1.0) - 1.0)));
+}
+
+TEST_CASE("the spread of runs is their mean and extremes where all of them are known") {
+  CurveSeries series{"gsp", {}};
+  for (int r = 0; r < 2; ++r) {
+    CurvePoints& points = series.runs[r];
+    for (std::size_t bytes : {256, 1024, 4096}) {
+      CurvePoint& point = points.emplace_back();
+      point.bytes = bytes * (r == 0 ? 1 : 2);
+      point.psnr_db = 40.0 + 5.0 * std::log2(bytes / 256.0);
+    }
+  }
+  const std::vector<SpreadPoint> spread = spread_of(series);
+  REQUIRE(spread.size() == 4);  // 512, 1024, 2048, 4096: the second run starts at 512, the first ends at 4096
+  CHECK(spread[1].bytes == 1024.0);
+  CHECK(spread[1].highest_db == Approx(50.0));
+  CHECK(spread[1].lowest_db == Approx(45.0));
+  CHECK(spread[1].mean_db == Approx(47.5));
+
+  // A size that one run alone meets exactly has no mean; one that both do is exact.
+  series.runs[0].back().psnr_db = std::numeric_limits<double>::infinity();
+  CHECK(spread_of(series).back().bytes == 2048.0);
+  CHECK_FALSE(exact_from(series));
+  series.runs[1][1].psnr_db = 50.0;
+  series.runs[1].back() = series.runs[0].back();
+  CHECK(std::isinf(spread_of(series).back().mean_db));
+  CHECK(*exact_from(series) == 4096.0);
 }

@@ -18,6 +18,7 @@
 #include "mesh/random.h"
 #include "mesh/read_file.h"
 #include "mesh/shapes.h"
+#include "param/map/param_file.h"
 #include "temporary_folder.h"
 
 using namespace gsp;
@@ -321,4 +322,21 @@ TEST_CASE("what differs from model to model only is no part of a label, so that 
   CHECK(labels("\"" + study.file("bumpy.ply") + "\", " + torus) == std::set<std::string>{"gsp", "maps"});
   const std::string both = "{ path = \"" + study.file("bumpy.ply") + "\", base_vertices = [12, 16], method = \"gsp\" }";
   CHECK(labels(both + ", " + torus) == std::set<std::string>{"gsp base_vertices=12", "gsp base_vertices=16", "maps"});
+}
+
+TEST_CASE("replicates share a label and are measured apart, the anchor once") {
+  const Study study;
+  const SweepResult result = study.run("method = [\"gsp\", \"maps\", \"draco\"]\nreplicates = 3\n", "bumpy.ply");
+  CHECK_FALSE(result.failed());
+  REQUIRE(result.cells.size() == 3 + 3 + 1);
+  for (const StoredCell& cell : result.cells) {
+    CHECK(cell.label == cell.options.method);
+    for (const CurvePoint& point : cell.points()) CHECK(point.replicate == cell.options.parameterize.replicate);
+  }
+  const std::vector<CurveSummary> summaries = summaries_of(result.cells);
+  REQUIRE(summaries.size() == 1);
+  REQUIRE(summaries[0].methods.size() == 3);
+  CHECK(summaries[0].methods[0].replicates == 3);
+  CHECK(summaries[0].methods[1].replicates == 3);
+  CHECK(summaries[0].methods[2].replicates == 1);
 }

@@ -307,6 +307,35 @@ TEST_CASE("the baselines stand on the same base and keep its area") {
   for (const ParameterizeResult& r : results) CHECK(check_map(r.map).area_error < 1e-9);
 }
 
+TEST_CASE("a replicate is another base by chance alone, recorded, and the same bits whenever it is made again") {
+  const Mesh mesh = shapes::bumpy_sphere(4);
+  const auto made = [&](int replicate, int threads) {
+    set_thread_count(threads);
+    ParameterizeOptions options;
+    options.method = Method::Maps;
+    options.base_vertices = 30;
+    options.replicate = replicate;
+    Progress progress;
+    ParameterizeResult result = parameterize(mesh, options, progress);
+    set_thread_count(0);
+    return result;
+  };
+  const ParameterizeResult first = made(0, 1), second = made(1, 1), third = made(2, 1);
+  CHECK(first.map.base.vertices != second.map.base.vertices);
+  CHECK(second.map.base.vertices != third.map.base.vertices);
+  CHECK(second.map.base.vertices == made(1, 2).map.base.vertices);
+  CHECK(second.map.position == made(1, 2).map.position);
+  const auto says = [](const ParameterizeResult& result, const char* line) {
+    const auto& lines = result.map.provenance;
+    return std::find(lines.begin(), lines.end(), line) != lines.end();
+  };
+  CHECK(says(second, "replicate 1"));
+  CHECK_FALSE(says(first, "replicate 0"));
+  // The prices that are recorded are those of the surface, not those by which it was decided.
+  CHECK(second.omega.front().omega() == Approx(first.omega.front().omega()).epsilon(1e-6));
+  CHECK_THROWS_AS(made(-1, 1), Error);
+}
+
 TEST_CASE("options out of range and unusable surfaces are refused by name") {
   Progress progress;
   ParameterizeOptions options;

@@ -69,5 +69,5 @@ refuse 'the coder knows the semi-regular mesh only, not the remesher' '"remesh/(
 refuse 'metrics and remesh know the result of a parameterization only, not the parameterizer' \
   '^ *# *include *"param/([^/]*|[^m/][^/]*/[^/]*)\.h"' metrics/**/*.h metrics/**/*.cpp remesh/**/*.h remesh/**/*.cpp
 refuse 'a heavy library belongs into one .cpp' \
-  '^ *# *include *<(CLI|draco|OpenMesh|sqlite3|toml\+\+|tbb|png|xxhash)' {mesh,param,remesh,coder,metrics,experiments,cli}/**/*.h
+  '^ *# *include *<(CLI|boost|draco|OpenMesh|sqlite3|toml\+\+|tbb|png|xxhash)' {mesh,param,remesh,coder,metrics,experiments,cli}/**/*.h
 exit $((failures > 0))

@@ -77,6 +77,17 @@ const Chart = (() => {
       element('text', { x: 4, y: margin.top + 2, 'dominant-baseline': 'hanging' }, 'dB'));
   }
 
+  const exact = (point) => point.psnr_db === Infinity;
+
+  // The points that a curve is drawn by: of several replicates their means.
+  const drawn = (curve) => curve.spread || curve.points;
+
+  // From the lowest to the highest of the replicates.
+  function band(points, scale) {
+    const at = (p, y) => `${scale.x(p.bytes).toFixed(1)},${scale.y(y).toFixed(1)}`;
+    return `M${points.map((p) => at(p, p.high_db)).join('L')}L${[...points].reverse().map((p) => at(p, p.low_db)).join('L')}Z`;
+  }
+
   // Only points that no smaller size reaches are on the curve; the others are shown as points.
   function envelope(points) {
     let best = -Infinity;
@@ -87,12 +98,14 @@ const Chart = (() => {
   function tip(frame, curve, point, x, y) {
     const box = byId('tip');
     box.innerHTML = '';
-    box.append(element('b', {}, curve.label), element('br'),
-      ...[`${point.bytes.toLocaleString('en')} bytes · ${point.bits_per_vertex.toPrecision(3)} bits/vertex`,
-        point.psnr_db === Infinity ? 'exact' : `${point.psnr_db.toFixed(2)} dB ± ${point.standard_error_db.toPrecision(1)}`,
+    const lines = curve.spread ? [`${Math.round(point.bytes).toLocaleString('en')} bytes`,
+      exact(point) ? 'exact' : `${point.psnr_db.toFixed(2)} dB, the mean of ${curve.replicates} replicates`,
+      ...exact(point) ? [] : [`${point.low_db.toFixed(2)} to ${point.high_db.toFixed(2)} dB`]]
+      : [`${point.bytes.toLocaleString('en')} bytes · ${point.bits_per_vertex.toPrecision(3)} bits/vertex`,
+        exact(point) ? 'exact' : `${point.psnr_db.toFixed(2)} dB ± ${point.standard_error_db.toPrecision(1)}`,
         `RMS ${point.rms.toExponential(2)} (→ ${point.rms_forward.toExponential(2)}, ← ${point.rms_backward.toExponential(2)})`,
-        `Hausdorff ≥ ${point.hausdorff.toExponential(2)} · ${point.faces.toLocaleString('en')} faces`]
-        .flatMap((line) => [line, element('br')]));
+        `Hausdorff ≥ ${point.hausdorff.toExponential(2)} · ${point.faces.toLocaleString('en')} faces`];
+    box.append(element('b', {}, curve.label), element('br'), ...lines.flatMap((line) => [line, element('br')]));
     box.hidden = false;
     const left = x + 16 + box.offsetWidth > frame.clientWidth ? x - 16 - box.offsetWidth : x + 16;
     box.style.left = `${Math.max(0, left)}px`;
@@ -133,22 +146,24 @@ const Chart = (() => {
     svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
     const scale = scales(curves, width, height, log);
     axes(svg, scale, width, height, log);
-    const exact = (p) => p.psnr_db === Infinity;
     const clip = (p) => p.bytes >= scale.domain.x[0] && p.bytes <= scale.domain.x[1] * 1.05 && (exact(p) || p.psnr_db <= scale.domain.y[1]);
     for (const curve of [...curves].reverse()) {
       if (ceilings && curve.ceiling_db !== null && curve.ceiling_db < Infinity) {
         const y = scale.y(curve.ceiling_db);
         svg.append(element('path', { class: 'ceiling', stroke: curve.colour, d: `M${margin.left},${y}H${width - margin.right}`, 'data-label': curve.label }));
       }
-      const line = envelope(curve.points).filter((p) => clip(p) && !exact(p));
+      const shown = drawn(curve).filter(clip), high = shown.filter((p) => !exact(p));
+      if (curve.spread && high.length > 1)
+        svg.append(element('path', { class: 'band', fill: curve.colour, d: band(high, scale), 'data-label': curve.label }));
+      const line = curve.spread ? high : envelope(high);
       svg.append(element('path', {
         class: curve.label === reference ? 'curve first' : 'curve', stroke: curve.colour, 'data-label': curve.label,
         d: line.map((p, i) => `${i ? 'L' : 'M'}${scale.x(p.bytes).toFixed(1)},${scale.y(p.psnr_db).toFixed(1)}`).join(''),
       }));
-      for (const p of curve.points.filter(clip))
+      for (const p of shown)
         svg.append(element('circle', { cx: scale.x(p.bytes), cy: scale.y(p.psnr_db), r: exact(p) ? 4 : 2.2, fill: curve.colour, class: exact(p) ? 'exact' : '' }));
     }
-    follow(svg, curves.map((c) => ({ ...c, points: c.points.filter(clip) })), scale);
+    follow(svg, curves.map((c) => ({ ...c, points: drawn(c).filter(clip) })), scale);
   }
 
   return { draw, colours };

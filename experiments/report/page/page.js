@@ -8,7 +8,7 @@
   const restore = (object, name) => { if (object[name] === null && object[`${name}_reason`]) object[name] = Infinity; };
   for (const curve of run.models.flatMap((m) => m.curves)) {
     restore(curve, 'ceiling_db');
-    for (const point of curve.points) restore(point, 'psnr_db');
+    for (const point of [...curve.points, ...curve.spread || []]) restore(point, 'psnr_db');
   }
 
   const labels = [...new Set(run.models.flatMap((m) => m.curves.map((c) => c.label)))];
@@ -50,7 +50,7 @@
 
   function csv() {
     const model = modelOf(State.get('model')), hidden = State.list('hide');
-    const columns = ['bytes', 'bits_per_vertex', 'faces', 'rms_forward', 'rms_backward', 'rms', 'hausdorff', 'psnr_db', 'standard_error_db', 'samples'];
+    const columns = ['replicate', 'bytes', 'bits_per_vertex', 'faces', 'rms_forward', 'rms_backward', 'rms', 'hausdorff', 'psnr_db', 'standard_error_db', 'samples'];
     const csvNumber = (value) => (value === Infinity ? 'inf' : value);
     const quoted = (text) => (/[",\r\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text);
     const rows = model.curves.filter((c) => !hidden.includes(c.label)).flatMap((c) =>
@@ -126,7 +126,7 @@
   function fillTable() {
     const head = ['', 'base', 'level', 'positions', 'ceiling', 'error', 'paper', ...run.levels_db.map((l) => `${l} dB`), 'BD-rate'];
     const some = (value, format) => (value === null || value === undefined ? '–' : format(value));
-    const fixed = (digits) => (v) => v.toFixed(digits);
+    const percent = (v) => `${v > 0 ? '+' : ''}${v.toFixed(1)} %`;
     const rows = [element('tr', {}, ...head.map((text) => element('th', {}, text)))];
     for (const model of run.models) {
       const size = model.vertices ? `  ${model.vertices.toLocaleString('en')} vertices, ${model.faces.toLocaleString('en')} faces` : '';
@@ -136,7 +136,7 @@
         const cells = [c.label, some(c.base_vertices, String), some(c.level, String), some(c.positions, String), some(c.ceiling_db, (v) => dbText(v, 1)),
           some(c.remesh_error, (v) => (1e5 * v).toFixed(2)), some(c.paper_error, (v) => (1e5 * v).toFixed(2)),
           ...c.bytes_at.map((b) => some(b, (v) => Math.round(v).toLocaleString('en'))),
-          c.label === run.reference ? '0' : some(c.bd_rate, (v) => `${v > 0 ? '+' : ''}${v.toFixed(1)} %`)];
+          c.label === run.reference ? '0' : some(c.bd_rate, (v) => percent(v) + (c.bd_interval ? ` (${percent(c.bd_interval[0])} to ${percent(c.bd_interval[1])})` : ''))];
         const row = element('tr', {}, ...cells.map((text) => element('td', {}, text)));
         if (c.bd_note) row.lastChild.title = c.bd_note;
         rows.push(row);
@@ -148,7 +148,9 @@
       `which is of sampled positions, so only rows of those compare with it. ` +
       `dB columns: bytes at which the curve reaches it. Exact: no distance to the input is left, its PSNR is infinite. ` +
       (run.models.some((m) => m.curves.some((c) => c.mode === 'fixed')) ? `mode=fixed: a stream for each size alone; the other curves are prefixes of one. ` : '') +
-      `BD-rate: mean bytes against ${run.reference} at equal PSNR, below the ceilings less 10 dB; more than 0 is worse.`;
+      `BD-rate: mean bytes against ${run.reference} at equal PSNR, below the ceilings less 10 dB; more than 0 is worse. ` +
+      (run.models.some((m) => m.curves.some((c) => c.spread)) ? `Rows of several replicates are means: of ceilings in dB, of bytes and ` +
+        `BD-rates geometric, with what chance does to these, 95%. Curves are means too, with a band from the lowest to the highest.` : '');
   }
 
   function fillFailures() {
