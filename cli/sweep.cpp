@@ -117,7 +117,8 @@ void add_sweep(CLI::App& app, Context& context) {
   Command command(app, context, "sweep", "run all cells of a recipe, resuming what an earlier run left");
   auto options = std::make_shared<SweepArguments>();
   constexpr int kMostJobs = 1024;
-  command.argument("RECIPE", options->recipe, "what to vary, TOML (experiments/recipes has some)");
+  command.argument("RECIPE", options->recipe,
+                   "what to vary, TOML (experiments/recipes has some; [[external]] runs others' programs)");
   command.output_folder("--store", options->store, true, "folder for the results");
   command.texts("--models", options->models, "PATTERN...",
                 "surfaces instead of the recipe's; one called as a model with keys of its own keeps them");

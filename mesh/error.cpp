@@ -60,6 +60,10 @@ const char* cause_name(Cause cause) {
       return "cancelled";
     case Cause::ToolMissing:
       return "tool-missing";
+    case Cause::ToolFailed:
+      return "tool-failed";
+    case Cause::TimedOut:
+      return "timed-out";
     case Cause::OutOfMemory:
       return "out-of-memory";
     case Cause::Internal:

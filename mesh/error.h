@@ -33,6 +33,8 @@ enum class Cause {
   SolverFailed,  ///< the linear system could not be factorized or solved
   Cancelled,     ///< the progress callback asked to stop
   ToolMissing,   ///< an external program (gnuplot) is not there
+  ToolFailed,    ///< it ended with another exit status than 0, by a signal, or without its output
+  TimedOut,      ///< it was still running at its time limit
   OutOfMemory,   ///< there is not enough memory
   Internal,      ///< an invariant does not hold: a bug in gsp
   // Wrong usage, exit status 2.

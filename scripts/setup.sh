@@ -13,8 +13,8 @@ gsp_packages=(
   libcli11-dev nlohmann-json3-dev libfmt-dev libtomlplusplus-dev libsqlite3-dev libxxhash-dev catch2 libcgal-dev libbenchmark-dev gnuplot-nox
   libpng-dev libjs-three libboost-dev
 )
-# A cluster of one node, for the test of sweeps through Slurm.
-[ "${CI-}" != true ] || gsp_packages+=(slurm-wlm munge)
+# A cluster of one node, for the test of sweeps through Slurm; Draco's tools, for that of external codecs.
+[ "${CI-}" != true ] || gsp_packages+=(slurm-wlm munge draco)
 
 say() { printf '%s\n' "$*" >&2; }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "mesh/words.h"
@@ -19,6 +20,7 @@ using Kind = Axis::Kind;
 using Scope = Axis::Scope;
 
 constexpr const char* kAuto = "auto";
+constexpr const char* kExternal = "external";
 constexpr double kMostWeight = 1e6;
 constexpr int kMostRelaxations = 1000;
 constexpr int kMostReplicate = 1000000;
@@ -185,16 +187,17 @@ AxisValue from_json(const Json& value) {
   throw Error(Cause::Malformed, "an option is neither a number nor a word");
 }
 
+// An option of a stage that the method does not have counts for the first that it has.
 bool belongs(const Axis& axis, const CellOptions& options, StageKind stage) {
-  if (!axis.applies_to(options.method)) return false;
-  // Anchors have one stage only.
-  return is_anchor(options.method) ? stage == StageKind::Measure : axis.stage == stage;
+  return axis.applies_to(options) && stage == std::max(axis.stage, stages_of(options).front());
 }
 
 void add_options(Json& object, const CellOptions& options, StageKind stage) {
   for (const Axis& axis : axes())
     if (belongs(axis, options, stage)) object[axis.name] = to_json(axis.get(options));
-  if (stage == StageKind::Measure && !is_anchor(options.method)) object["budgets"] = options.budgets;
+  if (options.external && stage == stages_of(options).front())
+    object[kExternal] = Json::parse(external_key_json(*options.external));
+  if (stage == StageKind::Measure && has_remesh(options)) object["budgets"] = options.budgets;
 }
 
 }  // namespace
@@ -232,6 +235,18 @@ bool is_anchor(const std::string& method) {
   return std::find(anchor_words().begin(), anchor_words().end(), method) != anchor_words().end();
 }
 
+std::vector<StageKind> stages_of(const CellOptions& options) {
+  if (!has_remesh(options)) return {StageKind::Measure};
+  if (!has_map(options)) return {StageKind::Remesh, StageKind::Encode, StageKind::Measure};
+  return {std::begin(kStageKinds), std::end(kStageKinds)};
+}
+
+bool has_map(const CellOptions& options) { return !options.external && !is_anchor(options.method); }
+
+bool has_remesh(const CellOptions& options) {
+  return options.external ? options.external->kind == ExternalTool::Kind::Remesher : !is_anchor(options.method);
+}
+
 const char* stream_mode_name(StreamMode mode) { return mode == StreamMode::Fixed ? "fixed" : "embedded"; }
 
 StreamMode stream_mode_of(const std::string& name) { return value_of(kStreamModes, stream_mode_name, name, "mode"); }
@@ -261,19 +276,20 @@ std::string Axis::refusal(const AxisValue& value) const {
                      words.empty() ? "" : " or auto");
 }
 
-bool Axis::applies_to(const std::string& method) const {
-  const bool gsp = method == method_name(Method::Gsp);
+bool Axis::applies_to(const CellOptions& options) const {
+  if (scope == Scope::Every) return true;
+  if (!has_map(options)) return has_remesh(options) && scope == Scope::Maps && stage >= StageKind::Encode;
+  const bool gsp = options.method == method_name(Method::Gsp);
   switch (scope) {
     case Scope::Every:
-      return true;
     case Scope::Maps:
-      return !is_anchor(method);
+      return true;
     case Scope::Gsp:
       return gsp;
     case Scope::GspAndHybrid:
       break;
   }
-  return gsp || method == method_name(Method::Hybrid);
+  return gsp || options.method == method_name(Method::Hybrid);
 }
 
 const std::vector<Axis>& axes() {
@@ -298,15 +314,25 @@ std::string to_string(const AxisValue& value) {
 CellOptions normalized(CellOptions options) {
   const CellOptions defaults;
   for (const Axis& axis : axes())
-    if (!axis.applies_to(options.method)) axis.set(options, axis.get(defaults));
-  if (is_anchor(options.method)) options.budgets.clear();
+    if (!axis.applies_to(options)) axis.set(options, axis.get(defaults));
+  if (!has_remesh(options)) options.budgets.clear();
   return options;
+}
+
+std::vector<CellOptions> distinct(const std::vector<CellOptions>& cells) {
+  std::set<std::string> seen;
+  std::vector<CellOptions> unique;
+  for (const CellOptions& cell : cells) {
+    CellOptions options = normalized(cell);
+    if (seen.insert(options_json(options)).second) unique.push_back(std::move(options));
+  }
+  return unique;
 }
 
 bool same_map_options(const CellOptions& cell, const CellOptions& made) {
   return std::all_of(axes().begin(), axes().end(), [&](const Axis& axis) {
     const bool of_map = axis.stage == StageKind::Parameterize && std::string("method") != axis.name;
-    return !of_map || !axis.applies_to(cell.method) || axis.get(cell) == axis.get(made);
+    return !of_map || !axis.applies_to(cell) || axis.get(cell) == axis.get(made);
   });
 }
 
@@ -325,6 +351,7 @@ std::string options_json(const CellOptions& options, StageKind stage) {
 std::string options_json(const CellOptions& options) {
   Json object = Json::object();
   for (StageKind stage : kStageKinds) add_options(object, options, stage);
+  if (options.external) object[kExternal] = Json::parse(external_json(*options.external));
   return object.dump();
 }
 
@@ -340,6 +367,12 @@ CellOptions options_from_json(const std::string& text) {
       }
       continue;
     }
+    if (name == kExternal) {
+      options.external = external_from_json(value.dump());
+      options.method = options.external->name;
+      continue;
+    }
+    if (name == "method" && object.contains(kExternal)) continue;
     const Axis& known = axis(name);
     AxisValue given = from_json(value);
     if (const std::string why = known.refusal(given); !why.empty()) throw Error(Cause::BadOption, name + ": " + why);
@@ -351,7 +384,7 @@ CellOptions options_from_json(const std::string& text) {
 std::string further_options(const CellOptions& options) {
   std::string text;
   for (const Axis& axis : axes()) {
-    if (axis.has_column || !axis.applies_to(options.method)) continue;
+    if (axis.has_column || !axis.applies_to(options)) continue;
     text += fmt::format("{}{}={}", text.empty() ? "" : " ", axis.name, to_string(axis.get(options)));
   }
   return text;

@@ -1,17 +1,20 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "coder/codec.h"
+#include "experiments/external/external_tool.h"
 #include "param/parameterize.h"
 #include "remesh/remesh.h"
 
 namespace gsp {
 
-/// What a cell of a sweep is computed by, in this order. An anchor (Draco) has the last one only.
+/// What a cell of a sweep is computed by, in this order. An anchor (Draco) has the last one only, as an external codec
+/// has; an external remesher has all but the first.
 enum class StageKind { Parameterize, Remesh, Encode, Measure };
 inline constexpr StageKind kStageKinds[] = {StageKind::Parameterize, StageKind::Remesh, StageKind::Encode,
                                             StageKind::Measure};
@@ -41,8 +44,9 @@ inline constexpr int kMostReplicates = 1000;
 
 /// Everything that a cell depends on besides its surface.
 struct CellOptions {
-  std::string method = "gsp";        ///< of `method_words`
-  ParameterizeOptions parameterize;  ///< whose `method` says nothing here
+  std::string method = "gsp";                 ///< of `method_words`, or the name of `external`
+  std::optional<ExternalTool> external = {};  ///< somebody else's method, which runs by command line
+  ParameterizeOptions parameterize;           ///< whose `method` says nothing here
   RemeshOptions remesh;
   EncodeOptions encode;
   StreamMode mode = StreamMode::Embedded;
@@ -60,6 +64,13 @@ const std::vector<std::string>& anchor_words();
 /// True for one of them.
 bool is_anchor(const std::string& method);
 
+/// The stages of a cell, in order.
+std::vector<StageKind> stages_of(const CellOptions& options);
+/// True for a map of gsp's or a baseline's, which starts with the stage Parameterize.
+bool has_map(const CellOptions& options);
+/// True where a remesh is coded by our coder: a map's, or that of an external remesher.
+bool has_remesh(const CellOptions& options);
+
 /// "default" and "paper": what options of the map are where none is given.
 std::vector<std::string> preset_words();
 /// The options that one stands for. Throws Error(BadOption) for unknown words.
@@ -74,8 +85,8 @@ struct Axis {
   enum class Kind { Integer, Number, Word };
   /// The methods for which it changes anything.
   enum class Scope {
-    Every,  ///< the anchors too
-    Maps,   ///< all but the anchors
+    Every,  ///< the anchors and external methods too
+    Maps,   ///< all maps; what codes a remesh and measures it also external remeshers
     Gsp,
     GspAndHybrid
   };
@@ -95,8 +106,8 @@ struct Axis {
 
   /// Why a value is impossible ("-1 is not 0 to 1000"); empty where it is fine.
   std::string refusal(const AxisValue& value) const;
-  /// False where the option changes nothing for the method, as the level for Draco.
-  bool applies_to(const std::string& method) const;
+  /// False where the option changes nothing for the cell's method, as the level for Draco.
+  bool applies_to(const CellOptions& options) const;
 };
 
 /// All axes, in the order in which a sweep nests them: the method outermost.
@@ -110,6 +121,9 @@ std::string to_string(const AxisValue& value);
 /// Options that do not apply to the method are set to their defaults, so that equal cells are equal.
 CellOptions normalized(CellOptions options);
 
+/// Normalized, and each once, in order.
+std::vector<CellOptions> distinct(const std::vector<CellOptions>& cells);
+
 /// Whether the map of `cell` is what `made` gives for the cell's method: all options that apply to that method's map
 /// are the same. Maps of one `ParameterizeOptions` are made together where this holds.
 bool same_map_options(const CellOptions& cell, const CellOptions& made);
@@ -119,7 +133,7 @@ bool same_map_options(const CellOptions& cell, const CellOptions& made);
 std::string base_options_json(const CellOptions& options);
 
 /// The options of one stage as a JSON object, only those that apply to the method, keys in the order of `axes`; the
-/// method is part of the stage that depends on it first, the budgets of Measure.
+/// method and `external` are part of the stage that depends on them first, the budgets of Measure.
 std::string options_json(const CellOptions& options, StageKind stage);
 /// All options that apply, as one JSON object.
 std::string options_json(const CellOptions& options);

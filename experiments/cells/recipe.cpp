@@ -10,9 +10,11 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "experiments/cells/models.h"
 #include "experiments/cells/suggest.h"
+#include "experiments/cells/value_range.h"
 #include "mesh/read_file.h"
 
 namespace gsp {
@@ -83,28 +85,16 @@ class AxisReader {
       stride = name;
     }
     if (stride.empty()) refuse(fmt::format("the range of {} lacks step, steps or factor", axis_.name), line_);
-    if (to < from) refuse(fmt::format("the range of {} is empty: {} to {}", axis_.name, from, to), line_);
     const double by = number(range, stride.c_str());
-    if (stride == "steps") return add_steps(from, to, by);
-    if (stride == "step" ? !(by > 0.0) : !(by > 1.0 && from > 0.0))
-      refuse(fmt::format("the range of {} never ends", axis_.name), line_);
-    // Half a stride of slack, so that 0 to 1 by 0.1 ends at 1.
-    for (int i = 0;; ++i) {
-      const double x = stride == "step" ? from + i * by : from * std::pow(by, i);
-      if (x > to + 1e-9 * std::abs(to)) break;
-      add_number(x);
+    std::vector<double> all;
+    try {
+      all = range_values(from, to, stride, by, kMostCells);
+    } catch (const Error& error) {
+      refuse(fmt::format("the range of {} {}", axis_.name, error.what()), line_);
     }
+    for (const double x : all) add_number(x);
   }
-
-  void add_steps(double from, double to, double steps) {
-    if (!(steps >= 2.0 && steps <= kMostCells) || steps != std::floor(steps))
-      refuse(fmt::format("steps of {} is no integer of at least 2", axis_.name), line_);
-    for (int i = 0; i < steps; ++i) add_number(from + i * (to - from) / (steps - 1.0));
-  }
-
   void add_number(double x) {
-    // Sums of decimals stand for decimals: 0.1 + 2·0.1 is 0.3.
-    x = std::stod(fmt::format("{:.12g}", x));
     if (axis_.kind == Axis::Kind::Number) return add(x, line_);
     if (x != std::floor(x)) refuse(fmt::format("{} takes integers, the range has {}", axis_.name, x), line_);
     add(static_cast<std::int64_t>(x), line_);
@@ -162,6 +152,20 @@ std::vector<std::size_t> budgets(const Layers& layers) {
     sizes.insert(static_cast<std::size_t>(element.ref<std::int64_t>()));
   }
   return {sizes.begin(), sizes.end()};
+}
+
+// The tables of [[key]]; none where the file has no such key.
+std::vector<const toml::table*> tables(const toml::table& file, const char* key) {
+  const toml::node* node = file.get(key);
+  if (!node) return {};
+  const toml::array* list = node->as_array();
+  if (!list || list->empty()) refuse(fmt::format("{0} is no list of tables: write [[{0}]]", key), line_of(*node));
+  std::vector<const toml::table*> tables;
+  for (const toml::node& table : *list) {
+    if (!table.is_table()) refuse(fmt::format("{0} is no table: write [[{0}]]", key), line_of(table));
+    tables.push_back(table.as_table());
+  }
+  return tables;
 }
 
 // One entry of `models`: a pattern, or a table that holds it as `path` beside keys for its surfaces alone.
@@ -249,22 +253,20 @@ std::vector<ModelSource> replacing_surfaces(const std::vector<std::string>& inst
   return surfaces;
 }
 
-// What the map's options are where no other key sets them.
-std::vector<ParameterizeOptions> presets(const Layers& layers) {
+// Cells with what the map's options are where no other key sets them.
+std::vector<CellOptions> presets(const Layers& layers) {
   const toml::node* node = layers.get("preset");
-  if (!node) return {ParameterizeOptions()};
-  std::vector<ParameterizeOptions> found;
-  const auto add = [&](const toml::node& word) {
+  if (!node) return {CellOptions()};
+  const toml::array* list = node->as_array();
+  if (list && list->empty()) refuse("preset is an empty list: the sweep would have no cell", line_of(*node));
+  std::vector<CellOptions> found;
+  for (std::size_t i = 0; i < (list ? list->size() : 1); ++i) {
+    const toml::node& word = list ? *list->get(i) : *node;
     const std::vector<std::string> words = preset_words();
     if (!word.is_string() || std::find(words.begin(), words.end(), word.ref<std::string>()) == words.end())
       refuse(fmt::format("preset is none of {}", fmt::join(words, ", ")), line_of(word));
-    found.push_back(preset_options(word.ref<std::string>()));
-  };
-  const toml::array* list = node->as_array();
-  if (!list) add(*node);
-  if (list && list->empty()) refuse("preset is an empty list: the sweep would have no cell", line_of(*node));
-  if (list)
-    for (const toml::node& word : *list) add(word);
+    found.emplace_back().parameterize = preset_options(word.ref<std::string>());
+  }
   return found;
 }
 
@@ -291,15 +293,28 @@ std::vector<AxisValue> values_of(const Axis& axis, const Layers& layers) {
   return node ? AxisReader(axis, *node).values : std::vector<AxisValue>();
 }
 
-// All combinations, the first axis varying slowest; those that differ only in what does not apply are one.
-std::vector<CellOptions> combinations(const Layers& layers, long long line) {
+// Cells of the methods by command line of an [[external]] table.
+std::vector<CellOptions> externals(const toml::table& table, const std::string& folder) {
+  std::ostringstream json;
+  json << toml::json_formatter(table);
   std::vector<CellOptions> cells;
-  for (const ParameterizeOptions& preset : presets(layers)) {
-    CellOptions& cell = cells.emplace_back();
-    cell.parameterize = preset;
-    cell.budgets = budgets(layers);
+  try {
+    for (ExternalTool& tool : external_tools(json.str(), folder)) {
+      CellOptions& cell = cells.emplace_back();
+      cell.method = tool.name;
+      cell.external = std::move(tool);
+    }
+  } catch (const Error& error) {
+    refuse(error.what(), line_of(table));
   }
+  return cells;
+}
+
+// All combinations, the first axis varying slowest; those that differ only in what does not apply are one.
+std::vector<CellOptions> combinations(const Layers& layers, std::vector<CellOptions> cells, long long line) {
+  for (CellOptions& cell : cells) cell.budgets = budgets(layers);
   for (const Axis& axis : axes()) {
+    if (cells.front().external && axis.name == std::string("method")) continue;
     const std::vector<AxisValue> values = values_of(axis, layers);
     if (values.empty()) continue;
     if (cells.size() * values.size() > kMostCells) refuse(fmt::format("more than {} cells", kMostCells), line);
@@ -311,13 +326,7 @@ std::vector<CellOptions> combinations(const Layers& layers, long long line) {
       }
     cells = std::move(product);
   }
-  std::set<std::string> seen;
-  std::vector<CellOptions> unique;
-  for (const CellOptions& cell : cells) {
-    CellOptions options = normalized(cell);
-    if (seen.insert(options_json(options)).second) unique.push_back(std::move(options));
-  }
-  return unique;
+  return distinct(cells);
 }
 
 std::optional<double> weld(const toml::table& file) {
@@ -338,9 +347,10 @@ toml::table parse(const std::string& path) {
   }
 }
 
-// The cells of one block; surfaces that follow each other with the same keys share a RecipeBlock.
+// The cells of one block; surfaces that follow each other with the same keys share a RecipeBlock. `start` are the
+// methods of an [[external]] table, none for those that the keys name.
 void add_block(Recipe& recipe, const toml::table* block, const toml::table& file, long long line,
-               const RecipeOverrides& overrides) {
+               const RecipeOverrides& overrides, const std::vector<CellOptions>& start = {}) {
   const std::vector<ModelEntry> entries = model_entries(block, file);
   const auto& instead = overrides.models;
   if (entries.empty() && instead.empty())
@@ -348,8 +358,9 @@ void add_block(Recipe& recipe, const toml::table* block, const toml::table& file
   const auto surfaces = instead.empty() ? found_surfaces(entries) : replacing_surfaces(instead, entries);
   const toml::table* own = nullptr;
   for (const ModelSource& surface : surfaces) {
+    const Layers layers{surface.own, block, file, overrides.replicates};
     if (&surface == &surfaces.front() || surface.own != own)
-      recipe.blocks.push_back({{}, combinations({surface.own, block, file, overrides.replicates}, line)});
+      recipe.blocks.push_back({{}, combinations(layers, start.empty() ? presets(layers) : start, line)});
     own = surface.own;
     recipe.blocks.back().models.push_back(surface.source);
   }
@@ -362,25 +373,35 @@ void spell_alike(Recipe& recipe) {
     for (std::string& source : block.models) source = first.emplace(surface_place(source), source).first->second;
 }
 
-Recipe recipe_of(const toml::table& file, const std::string& otherwise, const RecipeOverrides& overrides) {
+void add_externals(Recipe& recipe, const toml::table& file, const std::string& folder,
+                   const RecipeOverrides& overrides) {
+  std::vector<std::string> keys = external_keys(), names = method_words();
+  keys.emplace_back("models");
+  for (const toml::table* table : tables(file, "external")) {
+    require_known_keys(*table, keys);
+    const std::vector<CellOptions> cells = externals(*table, folder);
+    for (const CellOptions& cell : cells) {
+      if (std::find(names.begin(), names.end(), cell.method) != names.end())
+        refuse(fmt::format("there is a method {} already", cell.method), line_of(*table));
+      names.push_back(cell.method);
+    }
+    add_block(recipe, table, file, line_of(*table), overrides, cells);
+  }
+}
+
+Recipe recipe_of(const toml::table& file, const std::string& path, const RecipeOverrides& overrides) {
   Recipe recipe;
-  recipe.name = text(file, "name", otherwise);
+  recipe.name = text(file, "name", stem(path));
   recipe.description = text(file, "description", "");
-  require_known_keys(file, {"models", "name", "description", "block", "weld"});
+  require_known_keys(file, {"models", "name", "description", "block", "external", "weld"});
   recipe.read.weld = weld(file);
-  const auto add = [&](const toml::table* block, long long line) { add_block(recipe, block, file, line, overrides); };
-  const toml::node* blocks = file.get("block");
-  if (!blocks) {
-    add(nullptr, 1);
-    return recipe;
+  const std::vector<const toml::table*> blocks = tables(file, "block");
+  if (blocks.empty()) add_block(recipe, nullptr, file, 1, overrides);
+  for (const toml::table* block : blocks) {
+    require_known_keys(*block, {"models"});
+    add_block(recipe, block, file, line_of(*block), overrides);
   }
-  const toml::array* list = blocks->as_array();
-  if (!list || list->empty()) refuse("block is no list of tables: write [[block]]", line_of(*blocks));
-  for (const toml::node& block : *list) {
-    if (!block.is_table()) refuse("block is no table: write [[block]]", line_of(block));
-    require_known_keys(*block.as_table(), {"models"});
-    add(block.as_table(), line_of(block));
-  }
+  add_externals(recipe, file, std::filesystem::absolute(path).parent_path().string(), overrides);
   return recipe;
 }
 
@@ -388,7 +409,7 @@ Recipe recipe_of(const toml::table& file, const std::string& otherwise, const Re
 
 Recipe read_recipe(const std::string& path, const RecipeOverrides& overrides) {
   try {
-    Recipe recipe = recipe_of(parse(path), stem(path), overrides);
+    Recipe recipe = recipe_of(parse(path), path, overrides);
     spell_alike(recipe);
     return recipe;
   } catch (const Error& error) {

@@ -44,6 +44,12 @@ struct RecipeOverrides {
 ///     method = ["draco"]
 ///     models = [{ path = "horse.ply", base_vertices = 140 }]   # a surface with keys that override for it alone
 ///
+///     [[external]]                       # any number: somebody else's method, by command line (external_tool.h)
+///     name = "draco-tool"                # on the file's models, or its own
+///     encode = "draco_encoder -i {input} -o {output} -qp {value}"
+///     decode = "draco_decoder -i {input} -o {output}"
+///     values = [8, 10, 12]
+///
 /// The cells are all combinations. A surface that a pattern and a table name is one, with the table's keys. Of surfaces
 /// that replace the recipe's, one called like the path of a table (folder and ending aside)
 /// keeps that table's keys.

@@ -95,8 +95,7 @@ BaselineRow row_of(const std::vector<const StoredCell*>& cells) {
   row.surface = first.surface;
   row.replicates = static_cast<int>(cells.size());
   for (const Axis& axis : axes())
-    if (!axis.repeats && axis.applies_to(first.options.method))
-      row.options[axis.name] = to_string(axis.get(first.options));
+    if (!axis.repeats && axis.applies_to(first.options)) row.options[axis.name] = to_string(axis.get(first.options));
   std::vector<std::map<std::string, double>> numbers, times;
   CurveSeries series{first.label, {}};
   for (const StoredCell* cell : cells) {

@@ -14,6 +14,7 @@ class Meter {
   Meter(const Mesh& mesh, const std::string& model, std::uint64_t seed);
 
   const Mesh& mesh() const { return mesh_; }
+  const std::string& model() const { return model_; }
 
   /// A row with everything filled in that follows from the two surfaces and the byte count.
   CurvePoint measure(const Mesh& decoded, std::size_t bytes, std::size_t samples, Progress& progress) const;

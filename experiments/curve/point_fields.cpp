@@ -15,7 +15,7 @@ const std::vector<PointField>& point_fields() {
       {"model", "", "file name without folder and ending", &P::model},
       {"method", "",
        "gsp; maps (the initial map); maps-smoothed (the same, smoothed by Loop on the parameters); hybrid (the same, "
-       "relaxed by pairs of patches); draco; decimate-draco; lindstrom-turk-draco",
+       "relaxed by pairs of patches); draco; decimate-draco; lindstrom-turk-draco; or the name of an external method",
        &P::method},
       {"gamma", "", "weight of triangle shape in the simplification's cost; 0 for the anchors", &P::gamma},
       {"mu", "", "weight of area dispersion in the simplification's cost; 0 for the anchors", &P::mu},
@@ -30,7 +30,9 @@ const std::vector<PointField>& point_fields() {
       {"wavelet", "", "transform; empty for the anchors", &P::wavelet},
       {"coder", "",
        "`gsp`: a prefix of the embedded stream; `gsp-fixed`: a stream for that size alone; or Draco with its bits per "
-       "coordinate (`draco-qp11`) or without quantization (`draco-lossless`, which is no point of a curve)",
+       "coordinate (`draco-qp11`) or without quantization (`draco-lossless`, which is no point of a curve); of an "
+       "external method "
+       "its name and value, or its point's label and note",
        &P::coder, kMeasured},
       {"bytes", "bytes", "decoded", &P::bytes, kMeasured},
       {"bits_per_vertex", "bits", "8·bytes over the vertices of the input", &P::bits_per_vertex, kMeasured},

@@ -26,16 +26,20 @@ void side_by_side(std::size_t count, const char* stage, Progress& progress, cons
 
 }  // namespace
 
-MeasuredRemesh measured_remesh(const Parameterization& map, const RemeshOptions& options, const Meter& meter,
-                               std::size_t samples, Progress& progress) {
+MeasuredRemesh measured(SemiregularMesh remesh, const Meter& meter, std::size_t samples, Progress& progress) {
   MeasuredRemesh result;
-  result.mesh = remesh(map, options, progress);
+  result.mesh = std::move(remesh);
   progress.report("measure the remesh", 0.0);
   Progress silent;
   result.distance = meter.measure(result.mesh.mesh(), 0, samples, silent);
   result.shape = {result.mesh.base_vertices, static_cast<int>(result.mesh.base_faces.size()), result.mesh.level,
                   result.distance.rms};
   return result;
+}
+
+MeasuredRemesh measured_remesh(const Parameterization& map, const RemeshOptions& options, const Meter& meter,
+                               std::size_t samples, Progress& progress) {
+  return measured(remesh(map, options, progress), meter, samples, progress);
 }
 
 std::vector<CurvePoint> decoded_curve(const Bytes& stream, const std::vector<std::size_t>& wanted, const Meter& meter,
@@ -88,10 +92,12 @@ std::vector<std::size_t> byte_budgets(const std::vector<std::size_t>& wanted, st
 void describe(CurvePoint& row, const CellOptions& options, const RemeshShape& shape) {
   row.method = options.method;
   row.options = further_options(options);
-  if (is_anchor(options.method)) return;
-  row.gamma = options.parameterize.gamma;
-  row.mu = options.parameterize.mu;
-  row.replicate = options.parameterize.replicate;
+  if (!has_remesh(options)) return;
+  if (has_map(options)) {
+    row.gamma = options.parameterize.gamma;
+    row.mu = options.parameterize.mu;
+    row.replicate = options.parameterize.replicate;
+  }
   row.base_vertices = shape.base_vertices;
   row.base_faces = shape.base_faces;
   row.level = shape.level;

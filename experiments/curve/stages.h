@@ -24,6 +24,9 @@ struct MeasuredRemesh {
 
 // The stages after the map, as `gsp curve` runs them in memory and `gsp sweep` from files.
 
+/// Throws what `surface_distance` throws.
+MeasuredRemesh measured(SemiregularMesh remesh, const Meter& meter, std::size_t samples, Progress& progress);
+
 /// Throws what `remesh` and `surface_distance` throw.
 MeasuredRemesh measured_remesh(const Parameterization& map, const RemeshOptions& options, const Meter& meter,
                                std::size_t samples, Progress& progress);

@@ -17,10 +17,11 @@ namespace {
 int distance_from_defaults(const CellOptions& options) {
   CellOptions defaults;
   defaults.method = options.method;
+  defaults.external = options.external;
   defaults = normalized(defaults);
   int differing = 0;
   for (const Axis& axis : axes())
-    if (axis.applies_to(options.method)) differing += axis.get(options) != axis.get(defaults);
+    if (axis.applies_to(options)) differing += axis.get(options) != axis.get(defaults);
   return differing;
 }
 

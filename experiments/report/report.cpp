@@ -151,7 +151,7 @@ class Report {
          {"level", optional(cell.number("level"))},
          {"positions", positions.empty() ? Json() : Json(positions)},
          {"remesh_error", ceiling ? Json(std::pow(10.0, -*ceiling / 20.0)) : Json()},
-         {"paper_error", is_anchor(cell.options.method) ? Json() : optional(run_.paper_error(cell.model))},
+         {"paper_error", !has_remesh(cell.options) ? Json() : optional(run_.paper_error(cell.model))},
          {"bytes_at", bytes_at},
          {"bd_rate", comparison ? optional(comparison->bd_rate) : Json()},
          {"bd_interval",

@@ -51,6 +51,7 @@ void remove_unfinished(const std::string& store) {
   }
   std::error_code ignored;
   for (const fs::path& path : unfinished) fs::remove(path, ignored);
+  fs::remove_all(store + "/scratch", ignored);  // of external methods that were interrupted
 }
 
 }  // namespace gsp

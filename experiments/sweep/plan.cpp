@@ -7,6 +7,7 @@
 #include "experiments/cells/models.h"
 #include "experiments/store/content_hash.h"
 #include "experiments/sweep/algorithm_version.h"
+#include "experiments/sweep/external_version.h"
 
 namespace gsp {
 
@@ -54,10 +55,7 @@ class Labels {
 std::map<StageKind, std::string> stage_keys(const CellOptions& options, const std::string& surface) {
   std::map<StageKind, std::string> keys;
   std::string input = surface;
-  for (StageKind kind : kStageKinds) {
-    if (is_anchor(options.method) && kind != StageKind::Measure) continue;
-    input = keys[kind] = stage_key(kind, options, input);
-  }
+  for (StageKind kind : stages_of(options)) input = keys[kind] = stage_key(kind, options, input);
   return keys;
 }
 
@@ -96,7 +94,8 @@ std::string stage_key(StageKind kind, const CellOptions& options, const std::str
   return content_hash(text);
 }
 
-Plan make_plan(const Recipe& recipe, const std::function<void(const std::string& key, const Mesh&)>& keep) {
+Plan make_plan(const Recipe& of_file, const std::function<void(const std::string& key, const Mesh&)>& keep) {
+  const Recipe recipe = with_external_versions(of_file);
   Plan plan;
   plan.recipe = recipe.name;
   std::vector<std::string> sources;

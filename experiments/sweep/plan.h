@@ -11,7 +11,8 @@
 namespace gsp {
 
 /// The cells of a recipe with the keys of their stages, and their surfaces. A surface that cannot be read is a model
-/// with its cause, whose cells have no keys. `keep` receives every surface that could be read, with its key.
+/// with its cause, whose cells have no keys. Versions of external methods are asked for here. `keep` receives every
+/// surface that could be read, with its key.
 Plan make_plan(const Recipe& recipe, const std::function<void(const std::string& key, const Mesh&)>& keep);
 
 /// Where the surface of that key lies in a store, relative to its folder.

@@ -7,8 +7,10 @@
 #include <memory>
 #include <optional>
 
+#include "experiments/curve/external_curves.h"
 #include "experiments/curve/map_numbers.h"
 #include "experiments/curve/stages.h"
+#include "experiments/external/run_tool.h"
 #include "experiments/store/artefacts.h"
 #include "experiments/sweep/reference_task.h"
 #include "experiments/version.h"
@@ -26,6 +28,10 @@ void write_bytes(const std::string& path, const Bytes& bytes) {
   AtomicFile file(path);
   file.stream().write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   file.commit();
+}
+
+std::vector<std::string> provenance(const CellOptions& options) {
+  return options.external ? std::vector<std::string>{"external " + options.method} : provenance_of(options.remesh);
 }
 
 // The methods whose maps are made together, on one simplification.
@@ -77,7 +83,7 @@ class Runner {
     std::vector<MapBatch> batches;
     std::map<std::string, bool> seen;
     for (const PlannedCell& cell : task_.cells) {
-      if (is_anchor(cell.options.method) || done_.count(cell.keys.at(StageKind::Measure))) continue;
+      if (!has_map(cell.options) || done_.count(cell.keys.at(StageKind::Measure))) continue;
       if (done_.count(cell.keys.at(StageKind::Parameterize)) || seen[cell.keys.at(StageKind::Parameterize)]) continue;
       seen[cell.keys.at(StageKind::Parameterize)] = true;
       // A baseline goes along with any map whose options are the baseline's own, as far as those count for it.
@@ -121,23 +127,37 @@ class Runner {
 
   void run_cell(const PlannedCell& cell) {
     if (done_.count(cell.keys.at(StageKind::Measure))) return;
-    if (is_anchor(cell.options.method)) {
-      run_stage(cell, StageKind::Measure, [&](StageResult& result) {
-        result.points = anchor_curve(cell.options.method, meter(cell), cell.options.samples, progress_);
-      });
+    if (!has_remesh(cell.options)) {
+      run_stage(cell, StageKind::Measure, [&](StageResult& result) { result.points = whole_curve(cell); });
       return;
     }
     // Every stage starts from files, so that its result is the same whether or not those before it were at hand.
-    if (!succeeded(cell, StageKind::Parameterize)) return;
+    if (has_map(cell.options) && !succeeded(cell, StageKind::Parameterize)) return;
     if (!run_stage(cell, StageKind::Remesh, [&](StageResult& result) { remesh_stage(cell, result); })) return;
     if (!run_stage(cell, StageKind::Encode, [&](StageResult& result) { encode_stage(cell, result); })) return;
     run_stage(cell, StageKind::Measure, [&](StageResult& result) { measure_stage(cell, result); });
   }
 
-  void remesh_stage(const PlannedCell& cell, StageResult& result) {
+  // Of methods that have no remesh.
+  std::vector<CurvePoint> whole_curve(const PlannedCell& cell) {
+    const CellOptions& options = cell.options;
+    return options.external ? external_curve(*options.external, meter(cell), options.samples, scratch(), progress_)
+                            : anchor_curve(options.method, meter(cell), options.samples, progress_);
+  }
+
+  std::string scratch() const { return store_ + "/scratch"; }
+
+  MeasuredRemesh measured_remesh_of(const PlannedCell& cell) {
+    const CellOptions& options = cell.options;
+    if (options.external)
+      return measured(run_remesher(*options.external, surface_, scratch(), progress_), meter(cell), options.samples,
+                      progress_);
     const Parameterization map = read_parameterization(artefact(cell, StageKind::Parameterize, "map"));
-    const MeasuredRemesh remesh =
-        measured_remesh(map, cell.options.remesh, meter(cell), cell.options.samples, progress_);
+    return measured_remesh(map, options.remesh, meter(cell), options.samples, progress_);
+  }
+
+  void remesh_stage(const PlannedCell& cell, StageResult& result) {
+    const MeasuredRemesh remesh = measured_remesh_of(cell);
     result.numbers = {{"level", remesh.shape.level},
                       {"remesh_faces", remesh.distance.faces},
                       {"remesh_error", remesh.distance.rms},
@@ -145,8 +165,13 @@ class Runner {
                       {"remesh_backward", remesh.distance.rms_backward},
                       {"remesh_hausdorff", remesh.distance.hausdorff},
                       {"ceiling_db", remesh.distance.psnr_db}};
+    // Of a map, they are its own numbers.
+    if (cell.options.external) {
+      result.numbers["base_vertices"] = remesh.shape.base_vertices;
+      result.numbers["base_faces"] = remesh.shape.base_faces;
+    }
     result.artefacts["remesh"] = keep_artefact(store_, ".sr.ply", [&](const std::string& path) {
-      write_semiregular(path, remesh.mesh, provenance_of(cell.options.remesh));
+      write_semiregular(path, remesh.mesh, provenance(cell.options));
     });
   }
 

@@ -19,7 +19,7 @@ int faces_of(const Plan& plan, const Task& task) {
 std::string group_of(const PlannedCell& cell, const std::string& surface,
                      std::map<std::string, std::string>& first_on_base) {
   const CellOptions& options = cell.options;
-  if (is_anchor(options.method)) return surface + ' ' + options_json(options);
+  if (!has_map(options)) return surface + ' ' + options_json(options, stages_of(options).front());
   const std::string base = surface + ' ' + base_options_json(options);
   const std::string own = base + ' ' + options_json(options, StageKind::Parameterize);
   if (options.method != method_name(Method::Gsp)) {

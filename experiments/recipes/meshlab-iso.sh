@@ -1,0 +1,26 @@
+#!/bin/sh
+# meshlab-iso.sh INPUT OUTPUT SAMPLING_RATE: MeshLab 2020.09's iso-parametrization and its remesh, without a screen. Its scripts must
+# hold every parameter of a filter. With more than one OpenMP thread it never ends.
+set -eu
+script=$(mktemp --suffix=.mlx)
+trap 'rm -f "$script"' EXIT
+cat >"$script" <<XML
+<!DOCTYPE FilterScript>
+<FilterScript>
+ <filter name="Iso Parametrization: Main">
+  <Param type="RichInt" name="targetAbstractMinFaceNum" value="150" description="" tooltip=""/>
+  <Param type="RichInt" name="targetAbstractMaxFaceNum" value="200" description="" tooltip=""/>
+  <Param type="RichEnum" name="stopCriteria" value="1" description="" tooltip="" enum_val0="Best Heuristic" enum_val1="Area + Angle" enum_val2="Regularity" enum_val3="L2" enum_cardinality="4"/>
+  <Param type="RichInt" name="convergenceSpeed" value="1" description="" tooltip=""/>
+  <Param type="RichBool" name="DoubleStep" value="true" description="" tooltip=""/>
+  <Param type="RichString" name="AbsLoadName" value="" description="" tooltip=""/>
+  <Param type="RichString" name="AbsSaveName" value="" description="" tooltip=""/>
+ </filter>
+ <filter name="Iso Parametrization Remeshing">
+  <Param type="RichInt" name="SamplingRate" value="$3" description="" tooltip=""/>
+ </filter>
+</FilterScript>
+XML
+export OMP_NUM_THREADS=1
+# It says on standard error what it does not find, and ends with status 0 all the same: gsp sees that no output is there.
+xvfb-run -a meshlabserver -i "$1" -o "$2" -s "$script"
