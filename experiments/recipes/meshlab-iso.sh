@@ -22,5 +22,6 @@ cat >"$script" <<XML
 </FilterScript>
 XML
 export OMP_NUM_THREADS=1
-# It says on standard error what it does not find, and ends with status 0 all the same: gsp sees that no output is there.
-xvfb-run -a meshlabserver -i "$1" -o "$2" -s "$script"
+# It ends with status 0 even where it made nothing: then the next step finds no file.
+xvfb-run -a meshlabserver -i "$1" -o "$2.torn.obj" -s "$script"
+python3 "$(dirname "$0")/meshlab-stitch.py" "$2.torn.obj" "$2" "$3"
