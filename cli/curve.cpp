@@ -21,6 +21,7 @@ struct CurveArguments {
   std::string output;
   std::vector<std::string> methods = {"gsp", "maps-smoothed"};
   std::string wavelet = "loop";
+  std::vector<std::string> kinds = {remesh_kind_name(RemeshKind::Parametric)};
   std::vector<std::string> modes = {stream_mode_name(StreamMode::Embedded)};
   bool no_anchors = false;
   ReadOptions read;
@@ -33,6 +34,8 @@ int run_curve(CurveArguments& options, Context& context) {
   for (const std::string& word : options.methods) options.curve.methods.push_back(method_of(word));
   options.curve.anchors = !options.no_anchors;
   options.curve.encode.wavelet = wavelet_of(options.wavelet);
+  options.curve.kinds.clear();
+  for (const std::string& word : options.kinds) options.curve.kinds.push_back(remesh_kind_of(word));
   options.curve.modes.clear();
   for (const std::string& word : options.modes) options.curve.modes.push_back(stream_mode_of(word));
   const CurveJobResult job =
@@ -62,6 +65,8 @@ void add_curve(CLI::App& app, Context& context) {
   command.read_options(options->read);
   command.parameterize_options(options->curve.parameterize);
   command.remesh_options(options->curve.remesh);
+  command.choices("--kinds", options->kinds, axis("kind").words,
+                  "how vertices above the base are given, each with curves of its own: see gsp remesh --kind");
   command.encode_options(options->wavelet, options->curve.encode);
   command.choices("--modes", options->modes, axis("mode").words,
                   "how each size is coded: the prefix of one embedded stream; fixed, a stream for that size alone");

@@ -316,12 +316,15 @@ void Command::remesh_options(RemeshOptions& options) {
   axis_integer_or_auto("level", options.level, RemeshOptions::kAutoLevel,
                        "quadrisections of the base; auto is the first level with as many faces as the input");
   axis_word(
-      "kind", &CellOptions::remesh, options,
-      "how vertices above the base are given: by three numbers, where the map has them; or by one, along a normal");
-  axis_word(
       "positions", &CellOptions::remesh, options,
       "vertices of the remesh: fitted, nearer to the surface at equal bytes; the paper's samples of it; or closest, "
       "with the least error of the remesh but up to 1.8 times the bytes");
+}
+
+void Command::kind_option(RemeshOptions& options) {
+  axis_word("kind", &CellOptions::remesh, options,
+            "how vertices above the base are given: by three numbers, where the map has them; or by one, along a "
+            "normal of the coarser level or, displaced, of a smooth surface");
 }
 
 void Command::encode_options(std::string& wavelet, EncodeOptions& options) {

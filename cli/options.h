@@ -77,6 +77,8 @@ class Command {
   void parameterize_options(ParameterizeOptions& options);
   void replicate_option(ParameterizeOptions& options);
   void remesh_options(RemeshOptions& options);
+  /// --kind apart, since a curve takes several.
+  void kind_option(RemeshOptions& options);
   void encode_options(std::string& wavelet, EncodeOptions& options);
   void sampling_options(std::size_t& samples, std::uint64_t& seed);
 

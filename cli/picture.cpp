@@ -55,6 +55,7 @@ void add_picture(CLI::App& app, Context& context) {
   command.integer("--lines", options->picture.density, 1, 1024, "of isolines: lines across a patch, each way");
   command.read_options(options->picture.read);
   command.remesh_options(options->picture.remesh);
+  command.kind_option(options->picture.remesh);
   command.optional_input("--to", options->picture.other, "of distance: the surface to measure to");
   command.direction("--view", options->picture.view.toward, "from where it is seen; auto shows the broadest side");
   command.direction("--up", options->picture.view.up, "what points up; auto takes y or z");

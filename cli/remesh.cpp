@@ -45,6 +45,7 @@ void add_remesh(CLI::App& app, Context& context) {
   command.argument("MAP", options->map, "map: *.param.ply");
   command.output("MESH", options->output, Content::Ply, "the mesh, *.sr.ply");
   command.remesh_options(options->remesh);
+  command.kind_option(options->remesh);
   command.number(
       "--max-error", options->max_error, 0.0, 1.0,
       "instead of a level: the first whose RMS distance over the diagonal is at most X; 0 leaves it to --level");

@@ -14,9 +14,9 @@ using ControlSteps = std::array<std::uint32_t, 3>;
 /// Bits of the largest coordinate, at most.
 inline constexpr int kMostControlPlanes = 24;
 
-/// Appends control points, #V of `base` in its order, each coordinate < 2^planes: every one is predicted by the
-/// parallelograms over the edges opposite to it whose other corners come before it (Touma and Gotsman 1998), of which
-/// the mean is taken, or by its neighbours that do, and what is left is coded with adaptive probabilities. O(V).
+/// Appends control points, #V of `base` in its order, each coordinate < 2^planes: every one is predicted from those
+/// before it, by a third of the parallelograms over the edges opposite to it (Touma and Gotsman 1998) and two thirds of
+/// its neighbours' mean, and what is left is coded with adaptive probabilities. O(V).
 void encode_control(const CodedBase& base, int planes, const std::vector<ControlSteps>& points, Bytes& out);
 
 /// The inverse. Throws Error(BadStream) where the bytes end early or lead out of range.

@@ -8,11 +8,11 @@ namespace gsp {
 
 namespace {
 
-CellOptions cell_options(const CurveOptions& options, const std::string& method,
+CellOptions cell_options(const CurveOptions& options, const std::string& method, const RemeshOptions& remesh = {},
                          StreamMode mode = StreamMode::Embedded) {
   return normalized({.method = method,
                      .parameterize = options.parameterize,
-                     .remesh = options.remesh,
+                     .remesh = remesh,
                      .encode = options.encode,
                      .mode = mode,
                      .budgets = options.budgets,
@@ -20,10 +20,12 @@ CellOptions cell_options(const CurveOptions& options, const std::string& method,
                      .seed = options.seed});
 }
 
-// The rows of one method: its remesh, coded by every mode and decoded at every budget.
-std::vector<CurvePoint> method_curve(const ParameterizeResult& result, const std::string& method,
+// The rows of one method and kind: its remesh, coded by every mode and decoded at every budget.
+std::vector<CurvePoint> method_curve(const ParameterizeResult& result, const std::string& method, RemeshKind kind,
                                      const CurveOptions& options, const Meter& meter, Progress& progress) {
-  const MeasuredRemesh remesh = measured_remesh(result.map, options.remesh, meter, options.samples, progress);
+  RemeshOptions remesh_options = options.remesh;
+  remesh_options.kind = kind;
+  const MeasuredRemesh remesh = measured_remesh(result.map, remesh_options, meter, options.samples, progress);
   const Bytes embedded = encode(remesh.mesh, options.encode, progress);
   std::vector<CurvePoint> points;
   for (StreamMode mode : options.modes) {
@@ -32,7 +34,7 @@ std::vector<CurvePoint> method_curve(const ParameterizeResult& result, const std
             ? decoded_curve(embedded, options.budgets, meter, options.samples, progress)
             : decoded_streams(fixed_streams(remesh.mesh, options.encode, embedded, options.budgets, progress), meter,
                               options.samples, progress);
-    for (CurvePoint& row : rows) describe(row, cell_options(options, method, mode), remesh.shape);
+    for (CurvePoint& row : rows) describe(row, cell_options(options, method, remesh_options, mode), remesh.shape);
     points.insert(points.end(), rows.begin(), rows.end());
   }
   return points;
@@ -59,7 +61,7 @@ CurveRun rate_distortion_curve(const Mesh& mesh, const std::string& model, const
     for (std::size_t i = 0; i < results.size(); ++i) {
       const std::string method = method_name(once.methods[i]);
       Progress named = repeated.within(method);
-      append(method_curve(results[i], method, once, meter, named));
+      for (RemeshKind kind : once.kinds) append(method_curve(results[i], method, kind, once, meter, named));
     }
   }
   for (const std::string& anchor : anchor_words()) {

@@ -46,6 +46,8 @@ struct CurveOptions {
   ParameterizeOptions parameterize;
   std::vector<Method> methods = {Method::Gsp, Method::MapsSmoothed};
   RemeshOptions remesh;
+  /// What the vertices above the base are; each has curves of its own. `remesh.kind` does not count.
+  std::vector<RemeshKind> kinds = {RemeshKind::Parametric};
   EncodeOptions encode;
   /// How each size is coded. Streams of their own for each size cost about ten times the coding of the embedded one
   /// each.

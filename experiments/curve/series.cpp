@@ -10,7 +10,10 @@
 namespace gsp {
 
 std::string curve_name(const CurvePoint& point) {
-  return point.method + (point.coder == coder_name(StreamMode::Fixed) ? " mode=fixed" : "");
+  const std::string kind = further_option(point.options, "kind");
+  const bool parametric = kind.empty() || kind == remesh_kind_name(RemeshKind::Parametric);
+  return point.method + (parametric ? "" : " kind=" + kind) +
+         (point.coder == coder_name(StreamMode::Fixed) ? " mode=fixed" : "");
 }
 
 void add_run(std::vector<CurveSeries>& curves, const std::string& name, int replicate, CurvePoints points) {

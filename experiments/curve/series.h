@@ -19,8 +19,8 @@ struct CurveSeries {
   std::map<int, CurvePoints> runs;  ///< by replicate; none is without points
 };
 
-/// What the curve of a point is called: its method, with " mode=fixed" for streams of that mode, as labels of a sweep
-/// have it.
+/// What the curve of a point is called: its method, with " kind=displaced" or another that is not parametric and
+/// " mode=fixed" for streams of that mode, as labels of a sweep have it.
 std::string curve_name(const CurvePoint& point);
 
 /// One series a name, in the order of their first points.

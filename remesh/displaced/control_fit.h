@@ -17,7 +17,8 @@ struct ControlFitOptions {
 };
 
 /// Control points whose limit surface is near the surface: first by least squares to the points that the map puts at
-/// the same places of the domain, then to the nearest points, both from the surface and to it. `samples` are those of
+/// the same places of the domain, then to the nearest points, both from the surface and to it, with
+/// boundaries by themselves. `samples` are those of
 /// the target and leave as nearest places on the limit surface. The same bits for any number of threads.
 /// Throws Error(SolverFailed).
 std::vector<Vec3> fit_control(const ControlMap& map, const std::vector<SubdivisionLevel>& levels,

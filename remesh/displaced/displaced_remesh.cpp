@@ -39,7 +39,7 @@ class DisplacedRemesher {
     const FitTarget target{all_levels_.back(), dense_};
     const ControlMap map(levels_);
     ControlFitOptions control_options;
-    // Between 0.003 and 0.03 ceilings and rates of the paper's models stay within 0.1 dB.
+    // Small beside 1, the weight of the distance itself; base faces for which it is too little get more below.
     control_options.stiffness.assign(levels_.front().face_count(), 0.01);
     Attempt best;
     for (int round = 0; round < kMostRounds; ++round) {
@@ -107,7 +107,8 @@ class DisplacedRemesher {
     }
     attempt.error = 0.0;
     for (std::size_t f = 0; f < weights.size(); ++f) {
-      attempt.errors[f] /= weights[f];
+      // Samples belong to one of the base faces around them, so that on coarse levels one may have none.
+      if (weights[f] > 0.0) attempt.errors[f] /= weights[f];
       attempt.error += attempt.errors[f];
     }
   }

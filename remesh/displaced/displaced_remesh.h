@@ -12,8 +12,8 @@ struct DisplacedOptions {
   Positions positions = Positions::Fitted;
   /// Control points lie on a grid of at most the diagonal over 2^control_bits, 4..24, so that a code of them is exact
   /// and its decoder has the same normals. Finer ones cost 3 bits a control point for each bit; coarser ones leave more
-  /// to the displacements (bench/README.md, Displaced remeshes).
-  int control_bits = 8;
+  /// to the displacements (bench/README.md, Displaced meshes).
+  int control_bits = 7;
 };
 
 /// A remesh as a smooth surface and one number a vertex (Lee, Moreton, Hoppe 2000): control points, one for each base

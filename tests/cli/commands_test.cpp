@@ -161,6 +161,15 @@ TEST_CASE("the chain of commands: surface, map, remesh, stream, prefix, distance
   CHECK(json::parse(info.out)["normal_percent"] > 90.0);
   CHECK(json::parse(info.out)["boundary_vertices"] == 0);
 
+  const std::string displaced = folder.file("displaced.sr.ply");
+  REQUIRE(gsp_run({"remesh", map, "-o", displaced, "--kind", "displaced"}).status == 0);
+  const Ran displaced_info = gsp_run({"info", displaced, "--json"});
+  REQUIRE(displaced_info.status == 0);
+  CHECK(json::parse(displaced_info.out)["displaced"]["control_points"] == 40);
+  REQUIRE(gsp_run({"encode", displaced, "-o", stream}).status == 0);
+  REQUIRE(gsp_run({"decode", stream, "-o", decoded}).status == 0);
+  CHECK(json::parse(gsp_run({"info", decoded, "--json"}).out)["kind"] == "displaced");
+
   const Ran coded = gsp_run({"encode", remeshed, "-o", stream, "--json"});
   REQUIRE(coded.status == 0);
   CHECK(json::parse(coded.out)["bytes"] == size_of(stream));
@@ -269,7 +278,7 @@ TEST_CASE("curve draws what works, names what fails, and ends with status 1 for 
   std::ofstream(bad) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 nan\n3 0 1 2\n";
   const std::string to = output.file("curves");
   const Ran ran = gsp_run({"curve", bad, good, "-o", to, "--samples", "5000", "--base-vertices", "30", "--modes",
-                           "embedded,fixed", "--json"});
+                           "embedded,fixed", "--kinds", "parametric,displaced", "--json"});
   CAPTURE(ran.err);
   CHECK(ran.status == 1);
   CHECK(contains(ran.err, "gsp: bad: "));
@@ -277,9 +286,10 @@ TEST_CASE("curve draws what works, names what fails, and ends with status 1 for 
   CHECK(report["models"][0]["error"]["cause"].is_string());
   CHECK_FALSE(report["models"][1].contains("error"));
   CHECK(report["models"][1]["methods"][0]["method"] == "gsp");
-  CHECK(report["models"][1]["methods"].size() == 2 * 2 + anchor_words().size());
+  CHECK(report["models"][1]["methods"].size() == 2 * 2 * 2 + anchor_words().size());
   CHECK(report["models"][1]["methods"][1]["method"] == "gsp mode=fixed");
   CHECK(report["models"][1]["methods"][1]["coder"] == "gsp-fixed");
+  CHECK(report["models"][1]["methods"][2]["method"] == "gsp kind=displaced");
   for (const char* name : {"curve.csv", "bumpy.png", "bumpy.svg", "bumpy-omega.csv"})
     CHECK(size_of(to + "/" + name) > 200);
   for (const auto& file : report["files"]) CHECK(std::filesystem::exists(file.get<std::string>()));

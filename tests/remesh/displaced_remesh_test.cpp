@@ -188,6 +188,16 @@ TEST_CASE("grids of control points are a quarter apart within an octave and neve
   }
 }
 
+TEST_CASE("the coarsest levels have displaced remeshes too") {
+  for (int level : {0, 1})
+    for (Positions positions : {Positions::Sampled, Positions::Fitted}) {
+      const SemiregularMesh mesh =
+          displaced_to(placed(shapes::octahedron(), level + 1, [](const Vec3& p) { return p; }), level, positions);
+      CHECK(mesh.level == level);
+      CHECK(displaced_form(mesh).farthest < 1e-14);
+    }
+}
+
 TEST_CASE("what cannot be displaced is refused") {
   Progress silent;
   const SemiregularMesh sphere = spherical(2);
