@@ -315,6 +315,13 @@ void Command::replicate_option(ParameterizeOptions& options) {
 void Command::remesh_options(RemeshOptions& options) {
   axis_integer_or_auto("level", options.level, RemeshOptions::kAutoLevel,
                        "quadrisections of the base; auto is the first level with as many faces as the input");
+  axis_word("predict", &CellOptions::remesh, options,
+            "of normal kinds, what details are added to: name the wavelet that codes them; butterfly-lifted with "
+            "fitted positions only, loop with sampled ones");
+  axis_number(
+      "normal_tolerance", options.normal_tolerance,
+      "of variational-normal: how far off the surface a vertex may start, over the diagonal, so that one number "
+      "gives it and it is no exception");
   axis_word(
       "positions", &CellOptions::remesh, options,
       "vertices of the remesh: fitted, nearer to the surface at equal bytes; the paper's samples of it; or closest, "

@@ -4,11 +4,11 @@
 #include <memory>
 #include <string>
 
-#include "coder/butterfly_update.h"
 #include "coder/loop_high_pass.h"
 #include "mesh/error.h"
 #include "mesh/parallel.h"
 #include "remesh/filters/butterfly_low_pass.h"
+#include "remesh/filters/butterfly_update.h"
 #include "remesh/filters/loop_low_pass.h"
 
 namespace gsp {

@@ -2,18 +2,11 @@
 
 #include <vector>
 
+#include "remesh/closest_energy.h"
 #include "remesh/fold_guard.h"
-#include "remesh/nearest_place.h"
 #include "remesh/semiregular.h"
 
 namespace gsp {
-
-/// A point of the surface that stands for `weight` of a face of the remesh, and its place on that by the map.
-struct SurfaceSample {
-  Vec3 point;
-  double weight = 0.0;
-  LevelPlace place;
-};
 
 /// How far a fit goes.
 struct FitEffort {

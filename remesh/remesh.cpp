@@ -12,9 +12,11 @@
 #include "remesh/chart_samples.h"
 #include "remesh/closest_fit.h"
 #include "remesh/displaced/displaced_remesh.h"
+#include "remesh/displaced/fit_target.h"
 #include "remesh/fit_positions.h"
 #include "remesh/lattice_corners.h"
 #include "remesh/normal/normal_remesh.h"
+#include "remesh/scalar/scalar_fit.h"
 
 namespace gsp {
 
@@ -63,27 +65,29 @@ FitEffort effort_of(Positions positions) {
 
 void require_built(const RemeshOptions& options) {
   if (options.kind == RemeshKind::Parametric || options.kind == RemeshKind::Displaced) return;
-  const std::string kind = remesh_kind_name(options.kind);
-  if (options.kind != RemeshKind::Normal)
+  if (options.predict == Prediction::ButterflyLifted && options.kind == RemeshKind::Normal &&
+      options.positions == Positions::Sampled)
     throw Error(Cause::BadOption,
-                "remeshes of kind " + kind + " are not built yet; parametric, normal and displaced ones are");
-  if (options.positions != Positions::Sampled)
-    throw Error(Cause::BadOption, "a remesh of kind " + kind + " has sampled positions only, not " +
-                                      positions_name(options.positions) + " ones");
+                "vertices on normals through the prediction of lifted Butterfly are fitted ones only");
+  if (options.predict == Prediction::Loop &&
+      (options.kind != RemeshKind::Normal || options.positions != Positions::Sampled))
+    throw Error(Cause::BadOption, "vertices on normals through the prediction of Loop are sampled ones only");
 }
 
-SemiregularMesh normal(const Parameterization& map, const std::vector<std::vector<FacePiece>>& pieces, int level,
-                       Progress& progress) {
-  const auto levels = subdivision_levels(map.base.vertex_count(), map.base.faces, level);
-  NormalRemesh made = normal_remesh(map, pieces, levels, {}, progress);
+NormalRemesh normal(const Parameterization& map, const std::vector<std::vector<FacePiece>>& pieces,
+                    const std::vector<SubdivisionLevel>& levels, const RemeshOptions& options, Progress& progress) {
+  NormalOptions normal_options;
+  if (options.kind == RemeshKind::VariationalNormal)
+    normal_options.tolerance = options.normal_tolerance * bounding_box_diagonal(map.surface);
+  normal_options.loop = options.predict == Prediction::Loop;
+  NormalRemesh made = normal_remesh(map, pieces, levels, normal_options, progress);
   const auto count = [&](VertexForm form) {
     return std::to_string(std::count(made.forms.begin(), made.forms.end(), form));
   };
   progress.note(count(VertexForm::Normal) + " of " + std::to_string(made.forms.size()) +
                 " vertices above the base are normal; " + count(VertexForm::Parametric) +
                 " are where the map has them, " + count(VertexForm::Boundary) + " on the boundary");
-  progress.report("remesh", 1.0);
-  return {level, map.base.vertex_count(), map.base.faces, std::move(made.positions)};
+  return made;
 }
 
 /// Remeshing in progress: the finest connectivity, the positions, and what the charts found on their borders.
@@ -216,7 +220,8 @@ class Remesher {
 };
 
 /// Fitted to a sampled remesh of at least one level more, whose vertices are as many as the input's faces.
-SemiregularMesh displaced(const Parameterization& map, int level, Positions positions, Progress& progress) {
+/// The surface that a fit goes by: sampled on a level that is finer than `level` and than the input.
+SemiregularMesh fit_target(const Parameterization& map, int level, Progress& progress) {
   int finer = level + 1;
   const auto faces = [&](int at) { return static_cast<long long>(map.base.face_count()) << (2 * at); };
   while (faces(finer) < 2 * static_cast<long long>(input_face_count(map))) ++finer;
@@ -224,9 +229,32 @@ SemiregularMesh displaced(const Parameterization& map, int level, Positions posi
   RemeshOptions sampled;
   sampled.level = finer;
   sampled.positions = Positions::Sampled;
+  return remesh(map, sampled, progress);
+}
+
+SemiregularMesh displaced(const Parameterization& map, int level, Positions positions, Progress& progress) {
   DisplacedOptions options;
   options.positions = positions;
-  return displaced_remesh(remesh(map, sampled, progress), level, options, progress);
+  return displaced_remesh(fit_target(map, level, progress), level, options, progress);
+}
+
+/// Of remeshes with the same exceptions, one nearest to the surface; sampled, the one nearest to the given one.
+std::vector<Vec3> fitted(const Parameterization& map, const std::vector<SubdivisionLevel>& levels,
+                         const RemeshOptions& options, const NormalRemesh& normal, Progress& progress) {
+  const int level = static_cast<int>(levels.size()) - 1;
+  const SemiregularMesh surface = fit_target(map, level, progress);
+  const SubdivisionLevel finest = subdivision_levels(surface.base_vertices, surface.base_faces, surface.level).back();
+  FitEffort effort = effort_of(options.positions);
+  if (options.positions == Positions::Sampled) effort.most_rounds = 0;
+  std::vector<char> exceptional;
+  for (VertexForm form : normal.forms) exceptional.push_back(form != VertexForm::Normal);
+  progress.report("scalar fit", 0.5);
+  ScalarFit fit =
+      fit_scalars(levels, exceptional, options.predict == Prediction::ButterflyLifted,
+                  FitTarget{finest, surface.positions}.samples(surface.level - level), effort, normal.positions);
+  progress.note("details were made normal at an RMS distance of " +
+                std::to_string(100.0 * fit.rms / bounding_box_diagonal(map.surface)) + "% of the diagonal");
+  return std::move(fit.positions);
 }
 
 }  // namespace
@@ -240,7 +268,14 @@ SemiregularMesh remesh(const Parameterization& map, const RemeshOptions& options
   progress.report("remesh", 0.0);
   const std::vector<std::vector<FacePiece>> pieces = pieces_by_chart(map);
   progress.report("remesh", 0.3);
-  if (options.kind == RemeshKind::Normal) return normal(map, pieces, level, progress);
+  if (options.kind == RemeshKind::Normal || options.kind == RemeshKind::VariationalNormal) {
+    const auto levels = subdivision_levels(map.base.vertex_count(), map.base.faces, level);
+    NormalRemesh made = normal(map, pieces, levels, options, progress);
+    if (options.kind == RemeshKind::VariationalNormal || options.positions != Positions::Sampled)
+      made.positions = fitted(map, levels, options, made, progress);
+    progress.report("remesh", 1.0);
+    return {level, map.base.vertex_count(), map.base.faces, std::move(made.positions)};
+  }
   Remesher remesher(map, level, options.positions);
   parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) remesher.sample_chart(static_cast<int>(c), pieces[c]);

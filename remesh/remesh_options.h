@@ -25,7 +25,8 @@ enum class RemeshKind {
   Parametric,         ///< three numbers a vertex: where the map has it (paper §4)
   Normal,             ///< one, but for marked exceptions: along the normal of what the coarser level predicts (Guskov,
                       ///< Vidimče, Sweldens, Schröder 2000)
-  VariationalNormal,  ///< the same at a small error in place of exceptions (Friedel, Schröder, Khodakovsky 2004)
+  VariationalNormal,  ///< the same with fewer exceptions, at a small error in place of them, which fitted positions
+                      ///< take back (after Friedel, Schröder, Khodakovsky 2004)
   Displaced,          ///< one: along the normals of a smooth control surface (Lee, Moreton, Hoppe 2000)
 };
 inline constexpr RemeshKind kRemeshKinds[] = {RemeshKind::Parametric, RemeshKind::Normal, RemeshKind::VariationalNormal,
@@ -35,6 +36,18 @@ const char* remesh_kind_name(RemeshKind kind);
 /// The inverse. Throws Error(BadOption).
 RemeshKind remesh_kind_of(const std::string& word);
 
+/// What the details of normal kinds are added to.
+enum class Prediction {
+  Butterfly,        ///< modified Butterfly, which keeps the coarser level's vertices
+  ButterflyLifted,  ///< the details of lifted Butterfly, which codes better; with fitted positions
+  Loop,             ///< Loop's new vertices (the paper's "Normal Loop"); with sampled positions
+};
+inline constexpr Prediction kPredictions[] = {Prediction::Butterfly, Prediction::ButterflyLifted, Prediction::Loop};
+/// butterfly, butterfly-lifted, loop.
+const char* prediction_name(Prediction prediction);
+/// The inverse. Throws Error(BadOption).
+Prediction prediction_of(const std::string& word);
+
 struct RemeshOptions {
   /// Quadrisections of the base, 0..kMaxSubdivisionLevel, or kAutoLevel: the first level with at least as many faces as
   /// the surface, or the deepest one.
@@ -42,10 +55,15 @@ struct RemeshOptions {
   static constexpr int kAutoLevel = 99;
   Positions positions = Positions::Fitted;
   RemeshKind kind = RemeshKind::Parametric;
+  /// Of normal kinds; others do without. A code keeps its details normal with the wavelet of the same name.
+  Prediction predict = Prediction::Butterfly;
+  /// Of kind variational-normal: how far off the surface a vertex may be, over the diagonal, 0..1, so as not to be an
+  /// exception of three numbers.
+  double normal_tolerance = 1e-4;
 };
 
 /// What a remesh's file says of how its vertices were made, for `write_semiregular`: "kind parametric", "positions
-/// fitted".
+/// fitted"; of normal kinds "predict butterfly".
 std::vector<std::string> provenance_of(const RemeshOptions& options);
 
 }  // namespace gsp

@@ -28,9 +28,11 @@ class VertexSystem {
   /// preconditioned by the vertices' blocks. Needs a positive definite system. O(V) an iteration, one thread.
   std::vector<Vec3> solve() const;
 
- private:
+  /// The two sides of the equations, #V, whatever is free.
   std::vector<Vec3> times(const std::vector<Vec3>& moves) const;
+  const std::vector<Vec3>& right() const { return right_; }
 
+ private:
   const SubdivisionLevel& level_;
   const std::vector<char>& free_;
   std::vector<Eigen::Matrix3d> vertex_blocks_, edge_blocks_;

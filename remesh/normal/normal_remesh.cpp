@@ -6,6 +6,7 @@
 #include "mesh/parallel.h"
 #include "remesh/filters/butterfly_low_pass.h"
 #include "remesh/filters/local_frames.h"
+#include "remesh/filters/loop_low_pass.h"
 #include "remesh/normal/piercing.h"
 
 namespace gsp {
@@ -21,10 +22,17 @@ constexpr std::size_t kGrain = 256;
 /// One level's new vertices in progress: those that a normal offers, and the middles instead.
 class Insertion {
  public:
-  Insertion(const ChartIndex& index, const RemeshDomain& domain, const std::vector<Vec3>& positions, double aperture)
-      : index_(index), domain_(domain), level_(domain.connectivity()), reach_(domain), hits_(level_.edges.size()) {
+  Insertion(const ChartIndex& index, const RemeshDomain& domain, const std::vector<Vec3>& positions,
+            const NormalOptions& options)
+      : index_(index),
+        domain_(domain),
+        level_(domain.connectivity()),
+        reach_(domain),
+        hits_(level_.edges.size()),
+        lines_(level_.edges.size()),
+        tolerance_(options.tolerance) {
     std::vector<Vec3> predicted(level_.vertex_count + level_.edges.size(), Vec3::Zero());
-    butterfly_low_pass(level_)->add(positions.data(), predicted.data());
+    (options.loop ? loop_low_pass(level_) : butterfly_low_pass(level_))->add(positions.data(), predicted.data());
     const EdgeFrames frames(level_, positions);
     middles_.resize(level_.edges.size());
     parallel_for(level_.edges.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -33,9 +41,9 @@ class Insertion {
         const auto [a, b] = ends(e);
         middles_[e] = 0.5 * (a + b);
         if (boundary(e)) continue;
-        const Line line = {predicted[level_.vertex_count + e], frames(e).col(0)};
-        hits_[e] = nearest_hit(index, domain, reach_, e, line, middles_[e],
-                               std::min(aperture * std::abs(b - a), 0.1 * aperture));
+        lines_[e] = {predicted[level_.vertex_count + e], frames(e).col(0)};
+        hits_[e] = nearest_hit(index, domain, reach_, e, lines_[e], middles_[e],
+                               options.aperture * std::min(std::abs(b - a), 0.1));
       }
     });
   }
@@ -67,6 +75,11 @@ class Insertion {
         const Hit hit = hits_[e] ? *hits_[e] : surface_hit(index_, domain_, reach_, e, middles_[e]);
         positions[before + i] = hit.position;
         places[i] = hit.place;
+        if (hits_[e] || boundary(e) || tolerance_ == 0.0) continue;
+        const Vec3 nearest = lines_[e].nearest(hit.position);
+        if ((nearest - hit.position).norm() > tolerance_) continue;
+        positions[before + i] = nearest;
+        hits_[e] = hit;
       }
     });
     for (int e = 0; e < level_.edge_count(); ++e)
@@ -119,6 +132,8 @@ class Insertion {
   const FaceReach reach_;
   std::vector<Complex> middles_;          ///< #E, in the chart of the edge's first face
   std::vector<std::optional<Hit>> hits_;  ///< #E
+  std::vector<Line> lines_;               ///< #E, the normals, but on the boundary
+  double tolerance_;
 };
 
 }  // namespace
@@ -132,7 +147,7 @@ NormalRemesh normal_remesh(const Parameterization& map, const std::vector<std::v
   const double faces = static_cast<double>(levels.back().faces.size());
   for (std::size_t l = 0; l + 1 < levels.size(); ++l) {
     progress.report("normal remesh", static_cast<double>(levels[l].faces.size()) / faces);
-    Insertion insertion(index, result.domain, result.positions, options.aperture);
+    Insertion insertion(index, result.domain, result.positions, options);
     insertion.keep_upright();
     std::vector<DomainVertex> places;
     insertion.finish(result.positions, result.forms, places);

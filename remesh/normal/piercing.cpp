@@ -98,8 +98,7 @@ std::optional<Hit> nearest_hit(const ChartIndex& index, const RemeshDomain& doma
         best_face = piece.face;
         Vec3 position = Vec3::Zero();
         for (int k = 0; k < 3; ++k) position += (*weights)[k] * corners[k];
-        position = line.point + line.direction * line.direction.dot(position - line.point);
-        best = {{domain.home(edge), domain.side(edge), here, part->chart, there}, position};
+        best = {{domain.home(edge), domain.side(edge), here, part->chart, there}, line.nearest(position)};
       });
     }
   }

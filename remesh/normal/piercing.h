@@ -10,6 +10,8 @@ namespace gsp {
 struct Line {
   Vec3 point;
   Vec3 direction;  ///< unit
+
+  Vec3 nearest(const Vec3& p) const { return point + direction * direction.dot(p - point); }
 };
 
 /// Where a line meets a triangle from behind: the weights of its corners, which are not negative and sum to 1; nothing

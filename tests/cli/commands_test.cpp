@@ -152,7 +152,15 @@ TEST_CASE("the chain of commands: surface, map, remesh, stream, prefix, distance
   CHECK(closest < fitted);
   CHECK(gsp_run({"remesh", map, "-o", remeshed, "--positions", "neither"}).status == 2);
 
-  CHECK(gsp_run({"remesh", map, "-o", remeshed, "--kind", "normal"}).status == 2);
+  const std::string scalar = folder.file("nf.sr.ply"), scalars = folder.file("nf.pgc");
+  CHECK(gsp_run({"remesh", map, "-o", scalar, "--kind", "normal", "--predict", "loop"}).status == 2);
+  for (const char* kind : {"normal", "variational-normal"}) {
+    REQUIRE(gsp_run({"remesh", map, "-o", scalar, "--kind", kind, "--predict", "butterfly-lifted"}).status == 0);
+    const Ran normal_code = gsp_run({"encode", scalar, "-o", scalars, "--wavelet", "butterfly-lifted", "--json"});
+    REQUIRE(normal_code.status == 0);
+    const auto parts = json::parse(normal_code.out)["whole_stream_by_part"];
+    CHECK(parts["tangential_1"]["significance"].get<int>() < parts["normal"]["significance"].get<int>() / 10);
+  }
   REQUIRE(
       gsp_run({"remesh", map, "-o", folder.file("n.sr.ply"), "--kind", "normal", "--positions", "sampled"}).status ==
       0);

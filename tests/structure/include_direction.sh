@@ -62,7 +62,7 @@ may_include metrics 'param|mesh'
 may_include experiments 'mesh|param|remesh|coder|metrics'
 rooms mesh files
 rooms param map atlas linear refined energy removal simplify reinsert corners baselines stages
-rooms remesh filters normal displaced
+rooms remesh filters normal displaced scalar
 rooms coder displaced
 rooms experiments output external figures cells curve plot store sweep check report
 refuse 'the coder knows the semi-regular mesh only, not the remesher' '"remesh/(remesh|param)' coder/**/*.h coder/**/*.cpp

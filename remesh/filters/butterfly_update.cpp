@@ -1,4 +1,4 @@
-#include "coder/butterfly_update.h"
+#include "remesh/filters/butterfly_update.h"
 
 #include <vector>
 
