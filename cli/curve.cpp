@@ -16,6 +16,12 @@ namespace gsp::cli {
 
 namespace {
 
+CurveOptions curve_defaults() {
+  CurveOptions options;
+  options.parameterize = preset_options("default");
+  return options;
+}
+
 struct CurveArguments {
   std::vector<std::string> meshes;
   std::string output;
@@ -25,7 +31,7 @@ struct CurveArguments {
   std::vector<std::string> modes = {stream_mode_name(StreamMode::Embedded)};
   bool no_anchors = false;
   ReadOptions read;
-  CurveOptions curve;
+  CurveOptions curve = curve_defaults();
 };
 
 int run_curve(CurveArguments& options, Context& context) {

@@ -161,21 +161,6 @@ void Command::number_or_none(const std::string& name, double& value, double low,
       ->option_text("X");
 }
 
-void Command::integer_or_auto(const std::string& name, int& value, int automatic, int low, int high,
-                              const std::string& text) {
-  const std::string range = range_of(low, high);
-  const auto set = [&value, automatic](const std::string& word) {
-    if (!parse(word, value)) value = automatic;
-  };
-  app_->add_option_function<std::string>(
-          name, set,
-          fmt::format("{} [{}; {} or auto]", text, value == automatic ? "auto" : std::to_string(value), range))
-      ->check([=](const std::string& word) {
-        return word == "auto" ? std::string() : refusal(word, low, high, range + " or auto");
-      })
-      ->option_text("N|auto");
-}
-
 void Command::choice(const std::string& name, std::string& value, const std::vector<std::string>& words,
                      const std::string& text) {
   app_->add_option(name, value, fmt::format("{} [{}; {}]", text, value, fmt::join(words, ", ")))
@@ -235,9 +220,30 @@ void Command::axis_integer(const std::string& name, int& value, const std::strin
   integer(option_of(name), value, static_cast<int>(bounds.low), static_cast<int>(bounds.high), text);
 }
 
-void Command::axis_integer_or_auto(const std::string& name, int& value, int automatic, const std::string& text) {
-  const Axis& bounds = axis(name);
-  integer_or_auto(option_of(name), value, automatic, static_cast<int>(bounds.low), static_cast<int>(bounds.high), text);
+template <class Stage>
+void Command::axis_integer_or_word(const std::string& name, Stage CellOptions::*stage, Stage& options,
+                                   const std::string& text) {
+  const Axis& axis_of = axis(name);
+  const std::string range =
+      fmt::format("{} or {}", range_of(static_cast<int>(axis_of.low), static_cast<int>(axis_of.high)),
+                  fmt::join(axis_of.words, " or "));
+  CellOptions cell;
+  cell.*stage = options;
+  app_->add_option_function<std::string>(
+          option_of(name),
+          [&options, &axis_of, stage](const std::string& given) {
+            CellOptions changed;
+            changed.*stage = options;
+            int number = 0;
+            axis_of.set(changed, parse(given, number) ? AxisValue(std::int64_t{number}) : AxisValue(given));
+            options = changed.*stage;
+          },
+          fmt::format("{} [{}; {}]", text, to_string(axis_of.get(cell)), range))
+      ->check([&axis_of, range](const std::string& given) {
+        if (refusal(given, axis_of.words).empty()) return std::string();
+        return refusal(given, static_cast<int>(axis_of.low), static_cast<int>(axis_of.high), range);
+      })
+      ->option_text(fmt::format("N|{}", fmt::join(axis_of.words, "|")));
 }
 
 void Command::axis_number(const std::string& name, double& value, const std::string& text) {
@@ -272,8 +278,10 @@ void Command::parameterize_options(ParameterizeOptions& options) {
                       presets.front(), fmt::join(presets, ", ")))
       ->check([presets](const std::string& word) { return refusal(word, presets); })
       ->option_text("WORD");
-  axis_integer_or_auto("base_vertices", options.base_vertices, 0,
-                       "base vertices to stop at; auto stops before metric distortion dominates the cost");
+  axis_integer_or_word(
+      "base_vertices", &CellOptions::parameterize, options,
+      "base vertices to stop at; auto is the size whose streams are best at equal bytes, auto-omega the "
+      "paper's stop before metric distortion dominates the cost");
   axis_number("gamma", options.gamma, "weight of triangle shape in the cost");
   axis_number("mu", options.mu, "weight of area dispersion in the cost");
   axis_integer("relaxations", options.relaxations, "corner relaxations between solves at most");
@@ -313,7 +321,7 @@ void Command::replicate_option(ParameterizeOptions& options) {
 }
 
 void Command::remesh_options(RemeshOptions& options) {
-  axis_integer_or_auto("level", options.level, RemeshOptions::kAutoLevel,
+  axis_integer_or_word("level", &CellOptions::remesh, options,
                        "quadrisections of the base; auto is the first level with as many faces as the input");
   axis_word("predict", &CellOptions::remesh, options,
             "of normal kinds, what details are added to: name the wavelet that codes them; butterfly-lifted with "
@@ -336,7 +344,7 @@ void Command::kind_option(RemeshOptions& options) {
 
 void Command::encode_options(std::string& wavelet, EncodeOptions& options) {
   choice("--wavelet", wavelet, axis("wavelet").words, "wavelet transform");
-  axis_integer_or_auto("precision_bits", options.precision_bits, EncodeOptions::kAutoPrecision,
+  axis_integer_or_word("precision_bits", &CellOptions::encode, options,
                        "bits of the finest step relative to the bounding box, where the whole stream ends; auto is as "
                        "many as the remesh is worth");
   const std::vector<std::string> ratios = axis("tangential_ratio").words;

@@ -50,8 +50,6 @@ class Command {
   void number(const std::string& name, double& value, double low, double high, const std::string& text);
   /// The same, or 0, which stands for none.
   void number_or_none(const std::string& name, double& value, double low, double high, const std::string& text);
-  /// An integer in [low, high], or the word auto, which stands for `automatic`.
-  void integer_or_auto(const std::string& name, int& value, int automatic, int low, int high, const std::string& text);
   /// One of a few words.
   void choice(const std::string& name, std::string& value, const std::vector<std::string>& words,
               const std::string& text);
@@ -85,8 +83,10 @@ class Command {
  private:
   // Options with the bounds of the axis of that name.
   void axis_integer(const std::string& name, int& value, const std::string& text);
-  void axis_integer_or_auto(const std::string& name, int& value, int automatic, const std::string& text);
   /// `options`: the command's own of one stage, which is the member `stage` of a cell's.
+  template <class Stage>
+  void axis_integer_or_word(const std::string& name, Stage CellOptions::*stage, Stage& options,
+                            const std::string& text);
   template <class Stage>
   void axis_word(const std::string& name, Stage CellOptions::*stage, Stage& options, const std::string& text);
   void axis_number(const std::string& name, double& value, const std::string& text);

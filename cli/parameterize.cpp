@@ -9,6 +9,7 @@
 #include "cli/input.h"
 #include "cli/options.h"
 #include "cli/print.h"
+#include "experiments/base/base_by_rate.h"
 #include "experiments/cells/cell_options.h"
 #include "experiments/plot/gnuplot.h"
 #include "experiments/report/cost.h"
@@ -22,7 +23,7 @@ struct ParameterizeArguments {
   std::string mesh, output, omega_csv, omega_plot;
   std::string method = "gsp";
   ReadOptions read;
-  ParameterizeOptions parameterize;
+  ParameterizeOptions parameterize = preset_options("default");
   bool check = false;
 };
 
@@ -44,8 +45,9 @@ int run_parameterize(ParameterizeArguments& options, Context& context) {
   Progress progress = context.console.progress();
   options.parameterize.method = method_of(options.method);
   const SurfaceFile file = read_input(options.mesh, options.read, context);
-  const ParameterizeResult result =
-      in_places_of(file, [&] { return parameterize(file.mesh, options.parameterize, progress); });
+  const ParameterizeResult result = in_places_of(file, [&] {
+    return parameterize(file.mesh, with_base_by_rate(file.mesh, options.parameterize, progress), progress);
+  });
   write_parameterization(options.output, result.map);
   if (!options.omega_csv.empty()) write_omega_csv(options.omega_csv, result.omega);
   const CostCurve cost = cost_curve(result.omega);

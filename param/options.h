@@ -68,15 +68,20 @@ const char* base_edges_name(BaseEdges base_edges);
 /// The inverse. Throws Error(BadOption).
 BaseEdges base_edges_of(const std::string& word);
 
+/// Sizes of the base that are no number: where the paper's simplification stops before metric distortion dominates Ω
+/// (§3.1.1, figure 5d), and the one that costs the fewest bytes, which `parameterize` does not know
+/// (experiments/base/base_by_rate.h).
+inline constexpr int kBaseByOmega = 0, kBaseByRate = -1;
+
 struct ParameterizeOptions {
   Method method = Method::Gsp;
   Objective objective = Objective::Distortion;
   Weights weights = Weights::MeanValue;
   Corners corners = Corners::Relax;
   BaseEdges base_edges = BaseEdges::Flip;
-  /// Base vertices to stop at, at least 4. 0: automatic, before metric distortion dominates Ω (§3.1.1, figure 5d).
-  /// The simplification stops earlier, with a note, where no vertex can be removed any more.
-  int base_vertices = 0;
+  /// Base vertices to stop at, at least 4, or `kBaseByOmega`. The simplification stops earlier, with a note, where no
+  /// vertex can be removed any more.
+  int base_vertices = kBaseByOmega;
   double gamma = 2.0;  ///< weight of triangle shape in Ω, >= 0
   double mu = 1.0;     ///< weight of area dispersion in Ω, >= 0
   /// Which repetition of the experiment this is, >= 0. 0 is the surface as it is; each other number moves the prices of

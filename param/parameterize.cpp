@@ -34,8 +34,10 @@ constexpr double kLongestEdge = 0.25;  // of the edge of an equilateral patch of
 constexpr double kMostPerFace = 12.0, kMostPerPatch = 64.0;  // vertices added for it
 
 void check_options(const ParameterizeOptions& options) {
-  if (options.base_vertices != 0 && options.base_vertices < 4)
-    throw Error(Cause::BadOption, "base vertices must be at least 4, or 0 for the automatic number");
+  if (options.base_vertices != kBaseByOmega && options.base_vertices < 4)
+    throw Error(Cause::BadOption,
+                "base vertices must be at least 4, or chosen by the paper's stop; a base by rate is chosen before "
+                "(base_by_rate)");
   if (!(options.gamma >= 0.0) || !(options.mu >= 0.0))
     throw Error(Cause::BadOption, "gamma and mu must not be negative");
   if (options.replicate < 0) throw Error(Cause::BadOption, "the number of the replicate must not be negative");

@@ -21,6 +21,7 @@ using Scope = Axis::Scope;
 
 constexpr const char* kAuto = "auto";
 constexpr const char* kExternal = "external";
+const std::string kAutoOmega = "auto-omega";
 constexpr double kMostWeight = 1e6;
 constexpr int kMostRelaxations = 1000;
 constexpr int kMostReplicate = 1000000;
@@ -73,9 +74,15 @@ std::vector<Axis> map_axes() {
        Kind::Integer,
        4,
        kMostInt,
-       {kAuto},
-       [](const Options& o) { return integer_or_auto(o.parameterize.base_vertices, 0); },
-       [](Options& o, const Value& v) { o.parameterize.base_vertices = integer_or_auto(v, 0); },
+       {kAuto, kAutoOmega},
+       [](const Options& o) {
+         return o.parameterize.base_vertices == kBaseByOmega
+                    ? Value(kAutoOmega)
+                    : integer_or_auto(o.parameterize.base_vertices, kBaseByRate);
+       },
+       [](Options& o, const Value& v) {
+         o.parameterize.base_vertices = v == Value(kAutoOmega) ? kBaseByOmega : integer_or_auto(v, kBaseByRate);
+       },
        Scope::Maps,
        kColumn},
       {"objective", kStage, Kind::Word, 0, 0, words_of(kObjectives, objective_name),
@@ -267,7 +274,7 @@ const char* coder_name(StreamMode mode) { return mode == StreamMode::Fixed ? "gs
 std::vector<std::string> preset_words() { return {"default", "paper"}; }
 
 ParameterizeOptions preset_options(const std::string& word) {
-  if (word == "default") return {};
+  if (word == "default") return CellOptions().parameterize;
   if (word == "paper") return paper_options();
   throw Error(Cause::BadOption, "unknown preset " + word);
 }
@@ -284,7 +291,7 @@ std::string Axis::refusal(const AxisValue& value) const {
                                           : static_cast<double>(integer(value));
   if (x >= low && x <= high) return {};
   return fmt::format("{} is not {}{} to {}{}", text, kind == Kind::Integer ? "an integer " : "", low, high,
-                     words.empty() ? "" : " or auto");
+                     words.empty() ? "" : fmt::format(" or {}", fmt::join(words, " or ")));
 }
 
 bool Axis::applies_to(const CellOptions& options) const {

@@ -46,7 +46,7 @@ inline constexpr int kMostReplicates = 1000;
 struct CellOptions {
   std::string method = "gsp";                 ///< of `method_words`, or the name of `external`
   std::optional<ExternalTool> external = {};  ///< somebody else's method, which runs by command line
-  ParameterizeOptions parameterize;           ///< whose `method` says nothing here
+  ParameterizeOptions parameterize = {.base_vertices = kBaseByRate};  ///< whose `method` says nothing here
   RemeshOptions remesh;
   EncodeOptions encode;
   StreamMode mode = StreamMode::Embedded;

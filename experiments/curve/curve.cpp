@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "experiments/base/base_by_rate.h"
 #include "experiments/curve/stages.h"
 
 namespace gsp {
@@ -49,9 +50,11 @@ CurveRun rate_distortion_curve(const Mesh& mesh, const std::string& model, const
     run.points.insert(run.points.end(), points.begin(), points.end());
     if (options.on_progress) options.on_progress(run);
   };
+  const ParameterizeOptions parameterizing = with_base_by_rate(mesh, options.parameterize, progress);
   const Meter meter(mesh, model, options.seed);
   for (int replicate = 0; replicate < options.replicates; ++replicate) {
     CurveOptions once = options;
+    once.parameterize = parameterizing;
     once.parameterize.replicate = replicate;
     Progress repeated = options.replicates > 1
                             ? progress.within(fmt::format("replicate {} of {}", replicate + 1, options.replicates))

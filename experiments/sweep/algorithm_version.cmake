@@ -1,7 +1,8 @@
 # Run at every build: writes OUTPUT, which holds a hash of the sources of each stage, where it has changed.
 set(experiments experiments/curve/anchor_curves.cpp experiments/curve/external_curves.cpp experiments/curve/map_numbers.cpp experiments/curve/meter.cpp
     experiments/curve/rate_curve.cpp experiments/curve/stages.cpp experiments/external/run_tool.cpp experiments/sweep/stage_runner.cpp)
-set(parameterize_parts mesh param metrics)
+# The base by rate is judged by the whole chain.
+set(parameterize_parts mesh param metrics remesh coder experiments/base)
 set(remesh_parts mesh param remesh metrics)
 set(encode_parts mesh remesh coder)
 set(measure_parts mesh remesh coder metrics)

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "experiments/base/base_by_rate.h"
 #include "experiments/curve/external_curves.h"
 #include "experiments/curve/map_numbers.h"
 #include "experiments/curve/stages.h"
@@ -105,7 +106,8 @@ class Runner {
     const Clock clock;
     std::vector<StageResult> results(methods.size());
     const bool failed = !attempt(results.front(), [&] {
-      const std::vector<ParameterizeResult> maps = parameterize_all(surface_, methods, batch.options, progress_);
+      const std::vector<ParameterizeResult> maps =
+          parameterize_all(surface_, methods, with_base_by_rate(surface_, batch.options, progress_), progress_);
       for (std::size_t i = 0; i < maps.size(); ++i) describe_map(maps[i], results[i]);
     });
     // Together they fail together, so each is tried alone to learn which one it is.

@@ -183,7 +183,7 @@ void Simplifier::remove_down_to(int target) {
     queued_[top.vertex] = 0;  // if it cannot be removed now it waits until its star changes
     if (!pricers_.front().leaves_surface(star)) continue;
     candidate.parts.remaining_vertices = remaining_ - 1;
-    if (options_.base_vertices == 0 && stop_.reached(candidate.parts)) {
+    if (options_.base_vertices == kBaseByOmega && stop_.reached(candidate.parts)) {
       record.push_back(candidate.parts);
       ended_ = true;
       return;

@@ -52,7 +52,7 @@ TEST_CASE("a recipe is all combinations of its lists, with the program's default
   const std::vector<CellOptions>& cells = recipe.blocks[0].cells;
   REQUIRE(cells.size() == 8);
   CHECK(cells[0].method == "gsp");
-  CHECK(cells[0].parameterize.base_vertices == 0);
+  CHECK(cells[0].parameterize.base_vertices == kBaseByRate);
   CHECK(cells[1].parameterize.base_vertices == 50);
   CHECK(cells[7].method == "maps");
   CHECK(cells[7].parameterize.gamma == 1.5);
@@ -168,7 +168,7 @@ TEST_CASE("a model given instead keeps the keys of the recipe's model that is ca
   const Recipe recipe = read_recipe(folder.file("study.toml"), {{folder.file("*.off"), folder.file("cow.off")}, {}});
   REQUIRE(recipe.blocks.size() == 2);
   CHECK(recipe.blocks[0].models == std::vector<std::string>{folder.file("cow.off")});
-  CHECK(recipe.blocks[0].cells[0].parameterize.base_vertices == 0);
+  CHECK(recipe.blocks[0].cells[0].parameterize.base_vertices == kBaseByRate);
   CHECK(recipe.blocks[1].cells[0].parameterize.base_vertices == 140);
 }
 

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "mesh/progress.h"
+#include "param/options.h"
+
+namespace gsp {
+
+/// A size of the base that was looked at.
+struct BaseTried {
+  int asked = 0;          ///< vertices
+  int base_vertices = 0;  ///< of the map: more where the simplification could not go on
+  double psnr_db = 0.0;   ///< mean over the budgets, of a stand-in for the surface
+};
+
+struct BaseByRate {
+  /// The size to ask for; `kBaseByOmega` where no size of the ladder has a map.
+  int base_vertices = kBaseByOmega;
+  std::vector<BaseTried> tried;  ///< in the order in which they were
+};
+
+/// The size of base whose streams are best at equal bytes. Sizes 15, 21, 30, ... (steps of √2) are judged on a stand-in
+/// of about 2,500 faces, the surface after decimation: parameterized without corner relaxation and flips of base edges,
+/// remeshed, encoded with lifted Butterfly, decoded at 0.5, 1, 2 and 4 KB and measured. From 30, 60 and 120 the search
+/// climbs to the best of the ladder; sizes at which the simplification cannot arrive are passed over. Ranks of the
+/// stand-in agree with those of whole curves (bench/README.md, "The base by rate"). Of `options` gamma, mu and weights
+/// count. The same result for any number of threads. About 1 CPU s a size below 200, five to seven sizes, and the
+/// decimation. Throws Error: Cancelled, what decimation throws.
+BaseByRate base_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress);
+
+/// The options as they are, but with the size chosen where `base_vertices` is `kBaseByRate`; `progress` notes it.
+ParameterizeOptions with_base_by_rate(const Mesh& mesh, ParameterizeOptions options, Progress& progress);
+
+}  // namespace gsp

@@ -1,0 +1,53 @@
+#include "experiments/base/base_by_rate.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "mesh/parallel.h"
+#include "mesh/shapes.h"
+
+using namespace gsp;
+
+namespace {
+
+BaseByRate choice(const Mesh& mesh) {
+  Progress progress;
+  return base_by_rate(mesh, {}, progress);
+}
+
+}  // namespace
+
+TEST_CASE("the base by rate is the best of those that were tried, the same for one and two threads") {
+  const Mesh mesh = shapes::bumpy_sphere(4);
+  const int before = thread_count();
+  set_thread_count(1);
+  const BaseByRate one = choice(mesh);
+  set_thread_count(2);
+  const BaseByRate two = choice(mesh);
+  set_thread_count(before);
+  REQUIRE(!one.tried.empty());
+  const auto best = std::max_element(one.tried.begin(), one.tried.end(),
+                                     [](const BaseTried& a, const BaseTried& b) { return a.psnr_db < b.psnr_db; });
+  CHECK(one.base_vertices == best->asked);
+  CHECK(two.base_vertices == one.base_vertices);
+  REQUIRE(two.tried.size() == one.tried.size());
+  for (std::size_t i = 0; i < one.tried.size(); ++i) CHECK(two.tried[i].psnr_db == one.tried[i].psnr_db);
+}
+
+TEST_CASE("sizes that the simplification cannot reach are no choice, and a surface too small for any has none") {
+  // Each handle keeps vertices: a genus of 12 leaves far more than 30.
+  const Mesh slab = shapes::genus_slab(12, 2);
+  const BaseByRate chosen = choice(slab);
+  for (const BaseTried& t : chosen.tried) {
+    INFO(t.asked << " asked, " << t.base_vertices << " vertices");
+    if (t.asked == chosen.base_vertices) CHECK(t.base_vertices <= 1.2 * t.asked);
+  }
+  CHECK(choice(shapes::sphere(1)).base_vertices == kBaseByOmega);  // 42 vertices
+
+  Progress progress;
+  ParameterizeOptions options;
+  options.base_vertices = 33;
+  CHECK(with_base_by_rate(slab, options, progress).base_vertices == 33);
+  options.base_vertices = kBaseByRate;
+  CHECK(with_base_by_rate(slab, options, progress).base_vertices == chosen.base_vertices);
+}
