@@ -19,7 +19,7 @@ namespace {
 constexpr int kFaces = 2500;            // of the stand-in
 constexpr double kRefinement = 8.0;     // faces of a remesh for each of the stand-in, within a factor of two
 constexpr std::size_t kSamples = 5000;  // of a distance: 0.1 dB
-constexpr std::size_t kBudgets[] = {512, 1024, 2048, 4096};
+constexpr std::size_t kBudgets[] = {1024, 2048, 4096, 8192};
 constexpr double kOctave = 12.0;  // dB lost for each halving of a budget that does not hold a header
 
 constexpr double kSmallest = 15.0, kLargest = 1600.0;  // vertices, of the ladder
@@ -46,7 +46,7 @@ class Judge {
 
   /// What a step of the ladder is worth; nothing where it has no map, or is the same base as a larger step.
   std::optional<double> at(int step) {
-    if (step < 0 || step > last_) return std::nullopt;
+    if (step < 0 || step > last_ || kLarger * size_at(step) < least_) return std::nullopt;
     if (const auto known = known_.find(step); known != known_.end()) return known->second;
     progress_.report("choose the base by rate", std::min(0.9, 0.1 * static_cast<double>(known_.size())));
     return known_[step] = worth(size_at(step));
@@ -74,7 +74,10 @@ class Judge {
     coding.wavelet = Wavelet::ButterflyLifted;
     const Bytes stream = encode(remesh(map.map, remeshing, silent), coding, silent);
     tried.push_back({size, map.map.base.vertex_count(), mean_psnr(stream)});
-    if (tried.back().base_vertices > kLarger * size) return std::nullopt;
+    if (tried.back().base_vertices > kLarger * size) {
+      least_ = std::max(least_, tried.back().base_vertices);
+      return std::nullopt;
+    }
     return tried.back().psnr_db;
   } catch (const Error& error) {
     if (error.cause() == Cause::Cancelled) throw;
@@ -101,6 +104,7 @@ class Judge {
   ParameterizeOptions options_;
   Progress& progress_;
   int last_ = -1;
+  int least_ = 0;  ///< base vertices at which the simplification had to stop
   std::map<int, std::optional<double>> known_;
 };
 

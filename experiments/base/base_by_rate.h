@@ -23,7 +23,7 @@ struct BaseByRate {
 
 /// The size of base whose streams are best at equal bytes. Sizes 15, 21, 30, ... (steps of √2) are judged on a stand-in
 /// of about 2,500 faces, the surface after decimation: parameterized without corner relaxation and flips of base edges,
-/// remeshed, encoded with lifted Butterfly, decoded at 0.5, 1, 2 and 4 KB and measured. From 30, 60 and 120 the search
+/// remeshed, encoded with lifted Butterfly, decoded at 1, 2, 4 and 8 KB and measured. From 30, 60 and 120 the search
 /// climbs to the best of the ladder; sizes at which the simplification cannot arrive are passed over. Ranks of the
 /// stand-in agree with those of whole curves (bench/README.md, "The base by rate"). Of `options` gamma, mu and weights
 /// count. The same result for any number of threads. About 1 CPU s a size below 200, five to seven sizes, and the
