@@ -35,6 +35,7 @@ class Judge {
   Judge(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress)
       : mesh_(stand_in(mesh, progress)), tree_(mesh_), options_(options), progress_(progress) {
     options_.method = Method::Gsp;
+    options_.replicate = 0;
     options_.objective = Objective::Distortion;
     options_.relaxations = 0;
     options_.base_edges = BaseEdges::Keep;
