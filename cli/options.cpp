@@ -317,7 +317,7 @@ void Command::replicate_option(ParameterizeOptions& options) {
   axis_integer(
       "replicate", options.replicate,
       "0 takes the surface as it is; each other number decides otherwise where chance decides, by changing the "
-      "cost of removals by 1e-7");
+      "cost of removals by 1e-4");
 }
 
 void Command::remesh_options(RemeshOptions& options) {

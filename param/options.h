@@ -85,7 +85,7 @@ struct ParameterizeOptions {
   double gamma = 2.0;  ///< weight of triangle shape in Ω, >= 0
   double mu = 1.0;     ///< weight of area dispersion in Ω, >= 0
   /// Which repetition of the experiment this is, >= 0. 0 is the surface as it is; each other number moves the prices of
-  /// vertex removals by a factor of its own, at most 1e-7 from 1, and so decides otherwise where chance decides. Change
+  /// vertex removals by a factor of its own, at most 1e-4 from 1, and so decides otherwise where chance decides. Change
   /// it to learn how much of a result is chance.
   int replicate = 0;
   int relaxations = 4;  ///< at most so many corner relaxations between solves, >= 0; it ends when no corner moves

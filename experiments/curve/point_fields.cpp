@@ -20,7 +20,7 @@ const std::vector<PointField>& point_fields() {
       {"gamma", "", "weight of triangle shape in the simplification's cost; 0 for the anchors", &P::gamma},
       {"mu", "", "weight of area dispersion in the simplification's cost; 0 for the anchors", &P::mu},
       {"replicate", "",
-       "0: the surface as it is; others repeat the map with prices of vertex removals changed by at most 1e-7, to "
+       "0: the surface as it is; others repeat the map with prices of vertex removals changed by at most 1e-4, to "
        "learn "
        "what chance does; 0 for the anchors, which have no such choice",
        &P::replicate},

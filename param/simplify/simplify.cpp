@@ -33,7 +33,7 @@ constexpr int kLevelPerBase = 24;               // vertices of the coarsest leve
 
 // Largest relative change of a price from one replicate to another. A price is taken at no more than 32 points of a
 // star (RemovalCost::kSamples), so it means far fewer digits than this changes.
-constexpr double kPriceNoise = 1e-7;
+constexpr double kPriceNoise = 1e-4;
 
 int used_vertices(const Surface& surface) {
   return static_cast<int>(std::count_if(surface.halfedges.outgoing.begin(), surface.halfedges.outgoing.end(),
