@@ -7,6 +7,7 @@
 
 #include "coder/anchors.h"
 #include "coder/codec.h"
+#include "mesh/topology.h"
 #include "metrics/psnr.h"
 #include "metrics/surface_distance.h"
 #include "param/parameterize.h"
@@ -112,6 +113,7 @@ class Judge {
 }  // namespace
 
 BaseByRate base_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress) {
+  require_parameterizable(mesh);  // decimation trusts its input
   BaseByRate result;
   progress.report("choose the base by rate", 0.0);
   Judge judge(mesh, options, progress);

@@ -27,7 +27,8 @@ struct BaseByRate {
 /// climbs to the best of the ladder; sizes at which the simplification cannot arrive are passed over. Ranks of the
 /// stand-in agree with those of whole curves (bench/README.md, "The base by rate"). Of `options` gamma, mu and weights
 /// count. The same result for any number of threads. About 1 CPU s a size below 200, five to seven sizes, and the
-/// decimation. Throws Error: Cancelled, what decimation throws.
+/// decimation. Throws Error: Cancelled, what
+/// `require_parameterizable` throws.
 BaseByRate base_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress);
 
 /// The options as they are, but with the size chosen where `base_vertices` is `kBaseByRate`; `progress` notes it.

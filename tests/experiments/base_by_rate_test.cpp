@@ -54,3 +54,13 @@ TEST_CASE("sizes that the simplification cannot reach are no choice, and a surfa
   options.base_vertices = kBaseByRate;
   CHECK(with_base_by_rate(spheres, options, progress).base_vertices == chosen.base_vertices);
 }
+
+TEST_CASE("a surface that cannot be parameterized is refused before a base is looked for") {
+  Mesh broken = shapes::sphere(2);
+  for (int k = 0; k < 2; ++k) {  // an edge of three and of four faces
+    broken.positions.push_back({2.0 + k, 0.0, 0.0});
+    broken.faces.push_back({broken.faces[0][0], broken.faces[0][1], broken.vertex_count() - 1});
+  }
+  Progress progress;
+  CHECK_THROWS_AS(base_by_rate(broken, {}, progress), Error);
+}
