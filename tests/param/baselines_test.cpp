@@ -55,7 +55,8 @@ TEST_CASE("a baseline is the same map alone, beside the others and beside gsp") 
 }
 
 TEST_CASE(
-    "the baselines' maps cover their base once, on every small surface at hand, and MAPS' and hybrid fold nothing") {
+    "the baselines' maps cover their base once, on every small surface at hand, and MAPS' and hybrid fold nothing",
+    "[slow]") {
   const std::string folder = shared_meshes();
   std::vector<std::pair<std::string, Mesh>> surfaces{{"open grid", shapes::grid(40, 30, 0.1)},
                                                      {"bumpy sphere", shapes::bumpy_sphere(4)},
