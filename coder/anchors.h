@@ -36,7 +36,7 @@ enum class Decimation {
 /// Decimates to several face counts, which must be positive and fall, in one pass. A result has the count asked for or
 /// up to two faces fewer; one of at least the input's count is the input. Counts that no valid collapse reaches are
 /// left out, so the results may be fewer than the counts. Keeps topology, boundaries and every component. O(F log F),
-/// 100,000 faces take 3 CPU s. Throws Error(NonManifoldEdge, BadOption, Cancelled).
+/// 100,000 faces take 3 CPU s. Throws Error(NonManifoldEdge, NonManifoldVertex, BadOption, Cancelled).
 std::vector<Mesh> decimate(const Mesh& mesh, const std::vector<int>& face_counts, Decimation decimation,
                            Progress& progress);
 

@@ -13,6 +13,7 @@
 #include <functional>
 
 #include "mesh/error.h"
+#include "mesh/topology.h"
 
 namespace gsp {
 
@@ -141,6 +142,10 @@ std::vector<Mesh> decimate(const Mesh& mesh, const std::vector<int>& face_counts
   while (results.size() < face_counts.size() && face_counts[results.size()] >= mesh.face_count())
     results.push_back(mesh);
   if (results.size() == face_counts.size()) return results;
+  // CGAL takes such a vertex, and breaks where it collapses an edge of it.
+  if (const TopologyReport report = topology_report(mesh); !report.non_manifold_vertices.empty())
+    throw Error(Cause::NonManifoldVertex, "decimation needs a manifold surface", Element::Vertex,
+                report.non_manifold_vertices.front());
   Centred centred(mesh);
   Surface& surface = centred.surface();
   const Snapshots snapshots(centred, face_counts, results, progress);

@@ -113,7 +113,7 @@ class Judge {
 }  // namespace
 
 BaseByRate base_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress) {
-  require_parameterizable(mesh);  // decimation trusts its input
+  require_parameterizable(mesh);  // no size would do
   BaseByRate result;
   progress.report("choose the base by rate", 0.0);
   Judge judge(mesh, options, progress);

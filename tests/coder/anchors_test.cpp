@@ -139,3 +139,19 @@ TEST_CASE("decimation keeps boundaries, components and what has no face to spare
     CHECK(tetrahedron[1].positions == shapes::tetrahedron().positions);
   }
 }
+
+TEST_CASE("a surface that two fans of faces pinch at a vertex is not decimated, and the vertex is named") {
+  Mesh pinched = shapes::twice(shapes::sphere(3), Vec3(2.0, 0.0, 0.0));
+  const int second = pinched.vertex_count() / 2;
+  for (Triangle& t : pinched.faces)
+    for (int& v : t)
+      if (v == second) v = 0;
+  Progress silent;
+  for (Decimation decimation : {Decimation::Quadrics, Decimation::Volume}) try {
+      decimate(pinched, {100}, decimation, silent);
+      FAIL("accepted");
+    } catch (const Error& e) {
+      CHECK(e.cause() == Cause::NonManifoldVertex);
+      CHECK(e.index() == 0);
+    }
+}
