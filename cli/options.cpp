@@ -220,32 +220,6 @@ void Command::axis_integer(const std::string& name, int& value, const std::strin
   integer(option_of(name), value, static_cast<int>(bounds.low), static_cast<int>(bounds.high), text);
 }
 
-template <class Stage>
-void Command::axis_integer_or_word(const std::string& name, Stage CellOptions::*stage, Stage& options,
-                                   const std::string& text) {
-  const Axis& axis_of = axis(name);
-  const std::string range =
-      fmt::format("{} or {}", range_of(static_cast<int>(axis_of.low), static_cast<int>(axis_of.high)),
-                  fmt::join(axis_of.words, " or "));
-  CellOptions cell;
-  cell.*stage = options;
-  app_->add_option_function<std::string>(
-          option_of(name),
-          [&options, &axis_of, stage](const std::string& given) {
-            CellOptions changed;
-            changed.*stage = options;
-            int number = 0;
-            axis_of.set(changed, parse(given, number) ? AxisValue(std::int64_t{number}) : AxisValue(given));
-            options = changed.*stage;
-          },
-          fmt::format("{} [{}; {}]", text, to_string(axis_of.get(cell)), range))
-      ->check([&axis_of, range](const std::string& given) {
-        if (refusal(given, axis_of.words).empty()) return std::string();
-        return refusal(given, static_cast<int>(axis_of.low), static_cast<int>(axis_of.high), range);
-      })
-      ->option_text(fmt::format("N|{}", fmt::join(axis_of.words, "|")));
-}
-
 void Command::axis_number(const std::string& name, double& value, const std::string& text) {
   const Axis& bounds = axis(name);
   number(option_of(name), value, bounds.low, bounds.high, text);
@@ -253,20 +227,28 @@ void Command::axis_number(const std::string& name, double& value, const std::str
 
 template <class Stage>
 void Command::axis_word(const std::string& name, Stage CellOptions::*stage, Stage& options, const std::string& text) {
-  const Axis& word = axis(name);
+  const Axis& bounds = axis(name);
+  const bool counts = bounds.kind == Axis::Kind::Integer;
+  const int low = static_cast<int>(bounds.low), high = static_cast<int>(bounds.high);
+  const std::string range = counts ? fmt::format("{} or {}", range_of(low, high), fmt::join(bounds.words, " or "))
+                                   : fmt::format("{}", fmt::join(bounds.words, ", "));
   CellOptions cell;
   cell.*stage = options;
   app_->add_option_function<std::string>(
           option_of(name),
-          [&options, &word, stage](const std::string& given) {
+          [&options, &bounds, stage, counts](const std::string& given) {
             CellOptions changed;
             changed.*stage = options;
-            word.set(changed, given);
+            int number = 0;
+            bounds.set(changed, counts && parse(given, number) ? AxisValue(std::int64_t{number}) : AxisValue(given));
             options = changed.*stage;
           },
-          fmt::format("{} [{}; {}]", text, to_string(word.get(cell)), fmt::join(word.words, ", ")))
-      ->check([&word](const std::string& given) { return refusal(given, word.words); })
-      ->option_text("WORD");
+          fmt::format("{} [{}; {}]", text, to_string(bounds.get(cell)), range))
+      ->check([&bounds, counts, low, high, range](const std::string& given) {
+        const std::string why = refusal(given, bounds.words);
+        return why.empty() || !counts ? why : refusal(given, low, high, range);
+      })
+      ->option_text(counts ? fmt::format("N|{}", fmt::join(bounds.words, "|")) : "WORD");
 }
 
 void Command::parameterize_options(ParameterizeOptions& options) {
@@ -278,10 +260,9 @@ void Command::parameterize_options(ParameterizeOptions& options) {
                       presets.front(), fmt::join(presets, ", ")))
       ->check([presets](const std::string& word) { return refusal(word, presets); })
       ->option_text("WORD");
-  axis_integer_or_word(
-      "base_vertices", &CellOptions::parameterize, options,
-      "base vertices to stop at; auto is the size whose streams are best at equal bytes, auto-omega the "
-      "paper's stop before metric distortion dominates the cost");
+  axis_word("base_vertices", &CellOptions::parameterize, options,
+            "base vertices to stop at; auto is the size whose streams are best at equal bytes, auto-omega the "
+            "paper's stop before metric distortion dominates the cost");
   axis_number("gamma", options.gamma, "weight of triangle shape in the cost");
   axis_number("mu", options.mu, "weight of area dispersion in the cost");
   axis_integer("relaxations", options.relaxations, "corner relaxations between solves at most");
@@ -321,8 +302,8 @@ void Command::replicate_option(ParameterizeOptions& options) {
 }
 
 void Command::remesh_options(RemeshOptions& options) {
-  axis_integer_or_word("level", &CellOptions::remesh, options,
-                       "quadrisections of the base; auto is the first level with as many faces as the input");
+  axis_word("level", &CellOptions::remesh, options,
+            "quadrisections of the base; auto is the first level with as many faces as the input");
   axis_word("predict", &CellOptions::remesh, options,
             "of normal kinds, what details are added to: name the wavelet that codes them; butterfly-lifted with "
             "fitted positions only, loop with sampled ones");
@@ -344,9 +325,9 @@ void Command::kind_option(RemeshOptions& options) {
 
 void Command::encode_options(std::string& wavelet, EncodeOptions& options) {
   choice("--wavelet", wavelet, axis("wavelet").words, "wavelet transform");
-  axis_integer_or_word("precision_bits", &CellOptions::encode, options,
-                       "bits of the finest step relative to the bounding box, where the whole stream ends; auto is as "
-                       "many as the remesh is worth");
+  axis_word("precision_bits", &CellOptions::encode, options,
+            "bits of the finest step relative to the bounding box, where the whole stream ends; auto is as "
+            "many as the remesh is worth");
   const std::vector<std::string> ratios = axis("tangential_ratio").words;
   app_->add_option("--tangential-ratio", options.tangential_ratio,
                    fmt::format("step of tangential over normal components [{}; {}]", options.tangential_ratio,

@@ -83,10 +83,8 @@ class Command {
  private:
   // Options with the bounds of the axis of that name.
   void axis_integer(const std::string& name, int& value, const std::string& text);
-  /// `options`: the command's own of one stage, which is the member `stage` of a cell's.
-  template <class Stage>
-  void axis_integer_or_word(const std::string& name, Stage CellOptions::*stage, Stage& options,
-                            const std::string& text);
+  /// One of the axis' words, or where it counts a number too. `options`: the command's own of one stage, which is the
+  /// member `stage` of a cell's.
   template <class Stage>
   void axis_word(const std::string& name, Stage CellOptions::*stage, Stage& options, const std::string& text);
   void axis_number(const std::string& name, double& value, const std::string& text);

@@ -117,9 +117,7 @@ std::vector<Vec3> dequantize_details(const BitplaneCoefficients& integers, const
     for (std::size_t e = 0; e < details.size(); ++e) {
       const std::uint32_t magnitude = component.magnitude[begin + e];
       if (magnitude == 0) continue;
-      const int plane = component.low_plane[begin + e];
-      const double share = magnitude >> plane == 1 ? kFirstCentroid : kCentroid;
-      const double centre = magnitude + share * static_cast<double>(1u << plane);
+      const double centre = centroid(magnitude, component.low_plane[begin + e]);
       details[e][c] = centre * (component.negative[begin + e] ? -step : step);
     }
   }

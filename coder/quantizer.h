@@ -25,6 +25,11 @@ BitplaneCoefficients quantize(const std::vector<Vec3>& base, const std::vector<s
 /// magnitudes are likelier inside each interval, most of all the lowest; yet details that are still zero, and the
 /// chords of the finest triangles, leave the surface too flat, which larger values make up for. Found by measurement.
 inline constexpr double kFirstCentroid = 0.47, kCentroid = 0.55;
+/// That place, of a magnitude other than 0 whose bits are known from `low_plane` on, in steps.
+inline double centroid(std::uint32_t magnitude, int low_plane) {
+  const double share = magnitude >> low_plane == 1 ? kFirstCentroid : kCentroid;
+  return magnitude + share * static_cast<double>(1u << low_plane);
+}
 
 /// The inverse, each value at the centre of what is known of it.
 std::vector<Vec3> dequantize_base(const BitplaneCoefficients& integers, const StreamHeader& header);

@@ -82,9 +82,7 @@ std::vector<double> dequantized(const ScalarIntegers& known, const std::vector<d
   std::vector<double> coefficients(weights.size(), 0.0);
   for (std::size_t n = 0; n < coefficients.size(); ++n) {
     if (known.magnitude[n] == 0) continue;
-    const int low = known.low_plane[n];
-    const double share = known.magnitude[n] >> low == 1 ? kFirstCentroid : kCentroid;
-    const double steps = known.magnitude[n] + share * static_cast<double>(1u << low);
+    const double steps = centroid(known.magnitude[n], known.low_plane[n]);
     const double size = std::ldexp(steps, step_exponent) / weights[n];
     coefficients[n] = known.negative[n] ? -size : size;
   }

@@ -105,14 +105,15 @@ class Runner {
     if (!begin(*batch.cells.front(), StageKind::Parameterize)) return;
     const Clock clock;
     std::vector<StageResult> results(methods.size());
+    ParameterizeOptions options = batch.options;
     const bool failed = !attempt(results.front(), [&] {
-      const std::vector<ParameterizeResult> maps =
-          parameterize_all(surface_, methods, with_base_by_rate(surface_, batch.options, progress_), progress_);
+      options = with_base_by_rate(surface_, options, progress_);
+      const std::vector<ParameterizeResult> maps = parameterize_all(surface_, methods, options, progress_);
       for (std::size_t i = 0; i < maps.size(); ++i) describe_map(maps[i], results[i]);
     });
     // Together they fail together, so each is tried alone to learn which one it is.
     if (failed && methods.size() > 1) {
-      for (const PlannedCell* cell : batch.cells) make_maps({batch.options, {cell}});
+      for (const PlannedCell* cell : batch.cells) make_maps({options, {cell}});
       return;
     }
     for (std::size_t i = 0; i < results.size(); ++i)

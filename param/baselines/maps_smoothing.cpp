@@ -21,12 +21,6 @@ constexpr int kMostPieces = 64;     // base faces that one dyadic triangle reach
 
 using FaceWeights = std::array<double, 3>;
 
-/// A dyadic triangle, or what it covers of another base face.
-struct DyadicTriangle {
-  int face;
-  std::array<int, 3> i, j;  ///< of its corners
-};
-
 /// Where a vertex is in the smoothed domain, as far as is known.
 struct Found {
   double least = -1e300;  ///< weight of the triangle's corners
@@ -73,18 +67,6 @@ class FaceCells {
   int side_ = 1;
 };
 
-/// A dyadic triangle of the domain as one of the two kinds in the grid of its base face: `Up` with the corners (i, j),
-/// (i+1, j), (i, j+1), or `Down` with (i+1, j), (i+1, j+1), (i, j+1).
-struct GridTriangle {
-  int face, i, j;
-  bool down;
-
-  DyadicTriangle corners() const {
-    if (down) return {face, {i + 1, i + 1, i}, {j, j + 1, j + 1}};
-    return {face, {i, i + 1, i}, {j, j, j + 1}};
-  }
-};
-
 /// What a triangle covers of one base face.
 struct Piece {
   int face;
@@ -103,11 +85,7 @@ class DomainInverse {
     for (FaceCells& cells : cells_) cells.sort();
     seen_.resize(domain.base().faces.size() * 2 * n_ * n_);
     for (int f = 0; f < domain.base().face_count(); ++f)
-      for (int j = 0; j < n_; ++j)
-        for (int i = 0; i + j < n_; ++i) {
-          start_within({f, i, j, false});
-          if (i + j < n_ - 1) start_within({f, i, j, true});
-        }
+      for_each_grid_triangle(f, n_, [&](const GridTriangle& t) { start_within(t); });
     for (std::size_t k = 0; k < open_.size(); ++k) {
       const auto [here, start] = open_[k];
       spread(here.corners(), start);

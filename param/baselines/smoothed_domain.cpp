@@ -12,16 +12,6 @@ constexpr double kShortest = 1.0 / 16;  // of the step, below which a point does
 constexpr double kLeastHeight = 1e-3;   // of a base face over its first side: without height it would have no inside
 constexpr double kLeastSide = 1e-12;
 
-/// Calls visit(corner indices i, corner indices j) for the dyadic triangles of a face.
-template <class Visit>
-void for_each_triangle(int n, Visit&& visit) {
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i + j < n; ++i) {
-      visit(std::array{i, i + 1, i}, std::array{j, j, j + 1});
-      if (i + j < n - 1) visit(std::array{i + 1, i + 1, i}, std::array{j, j + 1, j + 1});
-    }
-}
-
 }  // namespace
 
 std::vector<std::array<Complex, 3>> true_shapes(const BaseComplex& base, const std::vector<Vec3>& positions) {
@@ -105,9 +95,10 @@ void SmoothedDomain::shorten_folding(const std::vector<Grid>& loop, const std::v
   do {
     folding.clear();
     for (int f = 0; f < base_.face_count(); ++f)
-      for_each_triangle(n_, [&](const std::array<int, 3>& i, const std::array<int, 3>& j) {
-        if (area(finer[f], i, j) > kLeastShare * area(straight[f], i, j)) return;
-        for (int k = 0; k < 3; ++k) mark(f, i[k], j[k]);
+      for_each_grid_triangle(f, n_, [&](const GridTriangle& triangle) {
+        const DyadicTriangle t = triangle.corners();
+        if (area(finer[f], t.i, t.j) > kLeastShare * area(straight[f], t.i, t.j)) return;
+        for (int k = 0; k < 3; ++k) mark(f, t.i[k], t.j[k]);
       });
     std::sort(folding.begin(), folding.end());
     folding.erase(std::unique(folding.begin(), folding.end()), folding.end());

@@ -20,6 +20,34 @@ struct PlaneMotion {
   }
 };
 
+/// A triangle of dyadic points of one base face: their indices as `SmoothedDomain::at` has them.
+struct DyadicTriangle {
+  int face;
+  std::array<int, 3> i, j;  ///< of its corners, counter-clockwise
+};
+
+/// A triangle of the finest grid of a base face, with the corners (i, j), (i+1, j), (i, j+1), or one that hangs down:
+/// (i+1, j), (i+1, j+1), (i, j+1).
+struct GridTriangle {
+  int face, i, j;
+  bool down;
+
+  DyadicTriangle corners() const {
+    if (down) return {face, {i + 1, i + 1, i}, {j, j + 1, j + 1}};
+    return {face, {i, i + 1, i}, {j, j, j + 1}};
+  }
+};
+
+/// Calls visit(GridTriangle) for those of a face with n dyadic points along an edge less one.
+template <class Visit>
+void for_each_grid_triangle(int face, int n, Visit&& visit) {
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i + j < n; ++i) {
+      visit(GridTriangle{face, i, j, false});
+      if (i + j < n - 1) visit(GridTriangle{face, i, j, true});
+    }
+}
+
 /// The base domain with its true side lengths, and the dyadic points of its faces where Loop subdivision of the
 /// parameters moves them (Lee et al. 1998, "smoothing"): a stencil within a face is averaged in the face's plane, one
 /// across a base edge in the two faces unfolded about it. Base vertices stay, and points on the boundary. Where Loop's

@@ -25,12 +25,8 @@ class DisplacementFit {
         places_(target.vertex_places(finest.vertex_count)),
         squared_(samples.size()),
         squared_back_(start.size()),
-        reach_(start.size(), 0.0) {
-    for (const auto& [a, b] : finest.edges) {
-      const double length = options.reach * (surface.points[a] - surface.points[b]).norm();
-      reach_[a] = std::max(reach_[a], length);
-      reach_[b] = std::max(reach_[b], length);
-    }
+        reach_(longest_edges(finest, surface.points)) {
+    for (double& reach : reach_) reach *= options.reach;
   }
 
   std::vector<Vec3> run() {

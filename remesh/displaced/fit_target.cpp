@@ -1,5 +1,7 @@
 #include "remesh/displaced/fit_target.h"
 
+#include <algorithm>
+
 #include "mesh/fixed_order.h"
 #include "remesh/lattice_corners.h"
 
@@ -46,6 +48,16 @@ std::optional<Vec3> direction_at(const SubdivisionLevel& level, const std::vecto
   if (!place.inside_face()) return unit(point - place.at(level, positions));
   const auto& [a, b, c] = level.faces[place.face];
   return unit(cross(positions[b] - positions[a], positions[c] - positions[a]));
+}
+
+std::vector<double> longest_edges(const SubdivisionLevel& level, const std::vector<Vec3>& positions) {
+  std::vector<double> longest(level.vertex_count, 0.0);
+  for (const auto& [a, b] : level.edges) {
+    const double length = (positions[a] - positions[b]).norm();
+    longest[a] = std::max(longest[a], length);
+    longest[b] = std::max(longest[b], length);
+  }
+  return longest;
 }
 
 }  // namespace gsp

@@ -32,4 +32,7 @@ struct FitTarget {
 std::optional<Vec3> direction_at(const SubdivisionLevel& level, const std::vector<Vec3>& positions,
                                  const LevelPlace& place, const Vec3& point);
 
+/// #V, the length of the longest edge at each vertex of a level; `positions` may have more vertices. O(E).
+std::vector<double> longest_edges(const SubdivisionLevel& level, const std::vector<Vec3>& positions);
+
 }  // namespace gsp

@@ -33,12 +33,7 @@ class Piercer {
 
   void pierce() {
     constexpr double kAperture = 3.0;
-    std::vector<double> spacing(finest_.vertex_count, 0.0);
-    for (const auto& [a, b] : finest_.edges) {
-      const double length = (target_.positions[a] - target_.positions[b]).norm();
-      spacing[a] = std::max(spacing[a], length);
-      spacing[b] = std::max(spacing[b], length);
-    }
+    const std::vector<double> spacing = longest_edges(finest_, target_.positions);
     const BoundaryWalk boundary(target_.level);
     const std::vector<LevelPlace> places = target_.vertex_places(finest_.vertex_count);
     for (int v = 0; v < finest_.vertex_count; ++v) {
