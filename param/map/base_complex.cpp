@@ -1,5 +1,7 @@
 #include "param/map/base_complex.h"
 
+#include <algorithm>
+
 #include "mesh/halfedges.h"
 
 namespace gsp {
@@ -20,6 +22,15 @@ Transition BaseComplex::across(int h) const {
   t.rotation = (direction[m] + 3 - direction[k] + 6) % 6;
   t.translation = kChartCorners[(m + 1) % 3] - rotate(kChartCorners[k], t.rotation);
   return t;
+}
+
+std::vector<char> BaseComplex::crease_halfedges() const {
+  std::vector<char> on_crease(twins.size(), 0);
+  for (std::size_t h = 0; h < twins.size() && !creases.empty(); ++h) {
+    const int a = faces[h / 3][h % 3], b = faces[h / 3][(h + 1) % 3];
+    on_crease[h] = std::binary_search(creases.begin(), creases.end(), std::array{std::min(a, b), std::max(a, b)});
+  }
+  return on_crease;
 }
 
 }  // namespace gsp

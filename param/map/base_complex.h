@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -12,6 +13,9 @@ struct BaseComplex {
   std::vector<int> vertices;    ///< #B, for each base vertex its vertex in the surface
   std::vector<Triangle> faces;  ///< #P, indices into `vertices`, oriented like the surface
   std::vector<int> twins;       ///< #3P, half-edge 3f + k (corner k to k+1) -> its twin, -1 on a boundary
+  /// #C, interior base edges on feature curves of the surface, each as its two base vertices a < b, ascending. The map
+  /// is continuous across them, but smooth along them only. Empty for a surface without features.
+  std::vector<std::array<int, 2>> creases;
 
   int vertex_count() const { return static_cast<int>(vertices.size()); }
   int face_count() const { return static_cast<int>(faces.size()); }
@@ -22,6 +26,9 @@ struct BaseComplex {
   /// The change of chart across half-edge h of face h / 3, from that face's chart into the chart of the neighbour.
   /// h must have a twin.
   Transition across(int h) const;
+
+  /// #3P, whether a half-edge lies on a crease. O(P log C).
+  std::vector<char> crease_halfedges() const;
 };
 
 }  // namespace gsp

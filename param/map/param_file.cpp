@@ -19,21 +19,25 @@ static_assert(std::endian::native == std::endian::little, "the file is little-en
 
 constexpr const char* kSignature = "gsp parameterization 1";
 
-/// The four elements in file order: how the header declares them and how many bytes one item takes.
+/// The elements in file order: how the header declares them and how many bytes one item takes. The last, creases, is
+/// declared where there are any.
 struct ElementLayout {
   const char* name;
   std::vector<const char*> properties;
   std::size_t bytes;
 };
 
-const std::array<ElementLayout, 4>& layout() {
-  static const std::array<ElementLayout, 4> kElements = {{
+constexpr int kElements = 5, kCrease = 4;
+
+const std::array<ElementLayout, kElements>& layout() {
+  static const std::array<ElementLayout, kElements> kLayout = {{
       {"vertex", {"double x", "double y", "double z", "int patch", "double u", "double v"}, 5 * 8 + 4},
       {"face", {"list uchar int vertex_indices", "int chart", "list uchar double texcoord"}, 1 + 3 * 4 + 4 + 1 + 6 * 8},
       {"base_vertex", {"int vertex"}, 4},
       {"base_face", {"list uchar int base_vertex_indices"}, 1 + 3 * 4},
+      {"crease", {"int first", "int second"}, 2 * 4},
   }};
-  return kElements;
+  return kLayout;
 }
 
 /// Items appended to a buffer as they lie in memory.
@@ -61,9 +65,10 @@ std::string single_line(std::string text) {
 std::string header(const Parameterization& map) {
   std::string text = std::string("ply\nformat binary_little_endian 1.0\ncomment ") + kSignature + "\n";
   for (const std::string& line : map.provenance) text += "comment " + single_line(line) + "\n";
-  const std::size_t counts[4] = {map.surface.positions.size(), map.surface.faces.size(), map.base.vertices.size(),
-                                 map.base.faces.size()};
-  for (int e = 0; e < 4; ++e) {
+  const std::size_t counts[kElements] = {map.surface.positions.size(), map.surface.faces.size(),
+                                         map.base.vertices.size(), map.base.faces.size(), map.base.creases.size()};
+  for (int e = 0; e < kElements; ++e) {
+    if (e == kCrease && counts[e] == 0) continue;
     text += std::string("element ") + layout()[e].name + " " + std::to_string(counts[e]) + "\n";
     for (const char* property : layout()[e].properties) text += std::string("property ") + property + "\n";
   }
@@ -132,7 +137,7 @@ int parse_count(Input& in, std::string_view text) {
 }
 
 /// Checks the header line by line against the one layout there is; fills the provenance.
-std::array<int, 4> read_header(Input& in, Parameterization& map) {
+std::array<int, kElements> read_header(Input& in, Parameterization& map) {
   bool signed_by_gsp = false;
   const auto content = [&] {
     for (;;) {
@@ -147,25 +152,27 @@ std::array<int, 4> read_header(Input& in, Parameterization& map) {
   };
   if (in.line() != "ply") in.malformed("not a PLY file");
   if (content() != "format binary_little_endian 1.0") in.malformed("not binary little-endian PLY");
-  std::array<int, 4> counts;
-  for (int e = 0; e < 4; ++e) {
+  std::array<int, kElements> counts{};
+  std::string_view element = content();
+  for (int e = 0; e < kElements; ++e) {
+    if (e == kCrease && element == "end_header") break;
     const std::string start = std::string("element ") + layout()[e].name + " ";
-    const std::string_view element = content();
     if (!element.starts_with(start)) in.malformed("expected '" + start + "COUNT'");
     counts[e] = parse_count(in, element.substr(start.size()));
     for (const char* property : layout()[e].properties)
       if (content() != std::string("property ") + property)
         in.malformed(std::string("expected 'property ") + property + "'");
+    element = content();
   }
-  if (content() != "end_header") in.malformed("expected 'end_header'");
+  if (element != "end_header") in.malformed("expected 'end_header'");
   if (!signed_by_gsp) in.malformed(std::string("no comment '") + kSignature + "'");
   return counts;
 }
 
 /// The header's counts against the bytes that are there, before memory is taken for them.
-void check_size(const Input& in, const std::array<int, 4>& counts) {
+void check_size(const Input& in, const std::array<int, kElements>& counts) {
   std::size_t expected = 0;
-  for (int e = 0; e < 4; ++e) expected += layout()[e].bytes * static_cast<std::size_t>(counts[e]);
+  for (int e = 0; e < kElements; ++e) expected += layout()[e].bytes * static_cast<std::size_t>(counts[e]);
   if (in.remaining() < expected)
     throw Error(Cause::Truncated,
                 "the file holds " + std::to_string(in.remaining()) + " bytes of data, its header promises " +
@@ -218,6 +225,16 @@ void read_base(Input& in, int vertices, int faces, BaseComplex& base) {
   base.connect();
 }
 
+void read_creases(Input& in, int count, BaseComplex& base) {
+  base.creases.resize(count);
+  for (auto& crease : base.creases)
+    for (int& b : crease) {
+      b = in.get<std::int32_t>();
+      if (b < 0 || b >= base.vertex_count())
+        throw Error(Cause::IndexOutOfRange, "a crease names a base vertex that does not exist", Element::Vertex, b);
+    }
+}
+
 }  // namespace
 
 void write_parameterization(const std::string& path, const Parameterization& map) {
@@ -246,6 +263,8 @@ void write_parameterization(const std::string& path, const Parameterization& map
     out.put<std::uint8_t>(3);
     for (int b : t) out.put<std::int32_t>(b);
   }
+  for (const auto& crease : map.base.creases)
+    for (int b : crease) out.put<std::int32_t>(b);
   AtomicFile file(path);
   file.stream().write(out.buffer().data(), static_cast<std::streamsize>(out.buffer().size()));
   file.commit();
@@ -254,11 +273,12 @@ void write_parameterization(const std::string& path, const Parameterization& map
 Parameterization read_parameterization(const std::string& path) {
   Input in(path);
   Parameterization map;
-  const std::array<int, 4> counts = read_header(in, map);
+  const std::array<int, kElements> counts = read_header(in, map);
   check_size(in, counts);
   read_vertices(in, counts[0], map);
   read_faces(in, counts[1], map);
   read_base(in, counts[2], counts[3], map.base);
+  read_creases(in, counts[kCrease], map.base);
   require_well_formed(map);
   return map;
 }

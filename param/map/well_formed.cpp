@@ -40,10 +40,21 @@ void require_base(const Parameterization& map) {
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
       throw Error(Cause::Malformed, "a base face names a base vertex twice", Element::Face, f);
   }
-  BaseComplex connected{base.vertices, base.faces, {}};
+  BaseComplex connected{base.vertices, base.faces, {}, {}};
   connected.connect();
   if (connected.twins != base.twins)
     throw Error(Cause::Malformed, "the base complex has other twins than its faces say");
+}
+
+void require_creases(const BaseComplex& base) {
+  for (std::size_t i = 0; i < base.creases.size(); ++i)
+    if (i > 0 && !(base.creases[i - 1] < base.creases[i]))
+      throw Error(Cause::Malformed, "the creases of the base complex are not ascending");
+  const std::vector<char> on_crease = base.crease_halfedges();
+  std::size_t interior = 0;
+  for (std::size_t h = 0; h < on_crease.size(); ++h) interior += on_crease[h] && base.twins[h] > static_cast<int>(h);
+  if (interior != base.creases.size())
+    throw Error(Cause::Malformed, "a crease of the base complex is no interior base edge");
 }
 
 void require_vertices(const Parameterization& map) {
@@ -69,6 +80,7 @@ void require_well_formed(const Parameterization& map) {
   require_sizes(map);
   require_vertices(map);
   require_base(map);
+  require_creases(map.base);
   for (int f = 0; f < map.surface.face_count(); ++f) {
     if (map.face_chart[f] < 0 || map.face_chart[f] >= map.base.face_count())
       throw Error(Cause::IndexOutOfRange, "a face lies in the chart of a base face that does not exist", Element::Face,

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -92,6 +93,23 @@ TEST_CASE("the header is the documented one") {
   CHECK(bytes.size() == header.size() + 4 * 44 + 4 * 66 + 4 * 4 + 4 * 13);
 }
 
+TEST_CASE("creases are written behind the base, and read back") {
+  const TemporaryFile file;
+  Parameterization map = exact_maps::quadrisected(shapes::tetrahedron(), 0);
+  write_parameterization(file.path, map);
+  const std::string plain = file.bytes();
+  map.base.creases = {{0, 1}, {1, 3}};
+  write_parameterization(file.path, map);
+  const std::string bytes = file.bytes(), declared = "element crease 2\nproperty int first\nproperty int second\n";
+  CHECK(bytes.find(declared + "end_header\n") != std::string::npos);
+  CHECK(bytes.size() == plain.size() + declared.size() + 2 * 8);
+  CHECK(read_parameterization(file.path).base.creases == map.base.creases);
+  const std::vector<char> on_crease = map.base.crease_halfedges();
+  CHECK(std::count(on_crease.begin(), on_crease.end(), 1) == 4);
+  file.write(bytes.substr(0, bytes.size() - 1));
+  CHECK(refusal(file.path) == Cause::Truncated);
+}
+
 TEST_CASE("every truncation is a named error") {
   const TemporaryFile file;
   write_parameterization(file.path, exact_maps::quadrisected(shapes::tetrahedron(), 0));
@@ -162,6 +180,12 @@ TEST_CASE("hostile indices and values are refused by name") {
   CHECK(cause([](auto& m) { m.base.vertices[2] = 50; }) == Cause::IndexOutOfRange);
   CHECK(cause([](auto& m) { m.base.faces[2][0] = 6; }) == Cause::IndexOutOfRange);
   CHECK(cause([](auto& m) { m.base.faces[2] = {1, 1, 2}; }) == Cause::Malformed);
+  CHECK(cause([](auto& m) { m.base.creases = {{0, 6}}; }) == Cause::IndexOutOfRange);
+  CHECK(cause([](auto& m) { m.base.creases = {{-1, 2}}; }) == Cause::IndexOutOfRange);
+  CHECK(cause([](auto& m) { m.base.creases = {{0, 1}}; }) == Cause::Malformed);  // opposite corners
+  CHECK(cause([](auto& m) { m.base.creases = {{2, 0}}; }) == Cause::Malformed);
+  CHECK(cause([](auto& m) { m.base.creases = {{0, 2}, {0, 2}}; }) == Cause::Malformed);
+  CHECK(cause([](auto& m) { m.base.creases = {{0, 3}, {0, 2}}; }) == Cause::Malformed);
   CHECK(cause([](auto& m) { m.surface.positions[1].y() = std::nan(""); }) == Cause::NonFinite);
   CHECK(cause([](auto& m) { m.surface.positions[1].y() = 1e200; }) == Cause::NonFinite);
   CHECK(cause([](auto& m) { m.position[1] = {INFINITY, 0}; }) == Cause::NonFinite);
