@@ -75,7 +75,7 @@ Moment support_moment(const SubdivisionLevel& level, const std::vector<Moment>& 
     if (face < 0) continue;
     add(face);
     for (int side : level.face_edges[face]) {
-      const int beyond = level.other_face(side, face);
+      const int beyond = level.smooth_face(side, face);
       if (side != e && beyond >= 0) add(beyond);
     }
   }

@@ -1,5 +1,6 @@
 #include "coder/loop_high_pass.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -26,12 +27,15 @@ class HighPass : public TapFilter<HighPass> {
  private:
   template <class Take>
   void taps_of(int e, Take take) const {
-    Column column{e, level_.edge_faces[e][1] >= 0 && distinct(e)};
-    if (level_.edge_faces[e][1] < 0)
-      boundary_taps(column);
+    Column column{e, !level_.sharp(e) && distinct(e)};
+    if (level_.sharp(e))
+      curve_taps(column);
     else
       interior_taps(column);
-    if (!column.distinct) balance(column);
+    if (!column.distinct) {
+      leave_creases(column);
+      balance(column);
+    }
     for (int i = 0; i < column.size; ++i) take(column.taps[i].to, e, column.taps[i].weight);
   }
 
@@ -111,7 +115,7 @@ class HighPass : public TapFilter<HighPass> {
   /// Beyond side `edge` = (corner, opposite): the midpoint of the wing's edge at the corner, at distance √3, and of the
   /// one at the opposite vertex, at distance 2.
   void wing(Column& column, int face, int edge, int corner, double weight) const {
-    const int beyond = level_.other_face(edge, face);
+    const int beyond = level_.smooth_face(edge, face);
     if (beyond < 0) return;
     const OtherSides s = sides(beyond, edge, corner);
     if (!mirror_symmetric_) column.add(odd(s.at_from), weight);
@@ -131,14 +135,24 @@ class HighPass : public TapFilter<HighPass> {
     column.add(odd(edge), 1.0 / 16);
   }
 
-  void boundary_taps(Column& column) const {
+  void curve_taps(Column& column) const {
     const int e = column.edge;
     column.add(odd(e), 6.0 / 8);
     for (int v : level_.edges[e]) column.add(v, -4.0 / 8);
-    for (int v : level_.edges[e]) {
-      if (fans_[v].boundary_count != 2) continue;
-      column.add(odd(fans_[v].boundary_edges[fans_[v].boundary_edges[0] == e]), 1.0 / 8);
-    }
+    for (int v : level_.edges[e])
+      if (fans_[v].on_curve()) column.add(odd(fans_[v].beyond(e)), 1.0 / 8);
+  }
+
+  /// A detail beside a crease does not move it, and one of a crease neither its corners nor its ends: creases are
+  /// curves of their own, the same whatever the surface on either side does.
+  void leave_creases(Column& column) const {
+    const auto left_out = [&](const Column::Tap& tap) {
+      const int v = tap.to, inserted_on = v - level_.vertex_count;
+      if (level_.creased[column.edge]) return inserted_on < 0 && !fans_[v].on_curve();
+      return inserted_on < 0 ? fans_[v].on_crease() : level_.creased[inserted_on] != 0;
+    };
+    const auto end = std::remove_if(column.taps.begin(), column.taps.begin() + column.size, left_out);
+    column.size = static_cast<int>(end - column.taps.begin());
   }
 
   void balance(Column& column) const {
@@ -147,6 +161,8 @@ class HighPass : public TapFilter<HighPass> {
       sum += column.taps[i].weight;
       if (column.taps[i].to < level_.vertex_count) even += column.taps[i].weight;
     }
+    // Where creases leave no even tap there is nothing to balance.
+    if (even == 0.0) return;
     for (int i = 0; i < column.size; ++i) {
       Column::Tap& tap = column.taps[i];
       if (tap.to < level_.vertex_count) tap.weight -= sum * tap.weight / even;

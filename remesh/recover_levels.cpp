@@ -51,7 +51,7 @@ class Coarsener {
  private:
   enum Parity : std::int8_t { Unknown, Old, New };
 
-  bool regular(int v) const { return fans_[v].valence == (fans_[v].boundary_count == 0 ? 6 : 4); }
+  bool regular(int v) const { return fans_[v].valence == (fans_[v].sharp_count == 0 ? 6 : 4); }
 
   void mark(int v, Parity parity) {
     if (parity_[v] != Unknown && parity_[v] != parity) refuse("a vertex is both old and new", Element::Vertex, v);
@@ -78,8 +78,8 @@ class Coarsener {
 
   /// The edge that continues `edge` past the new vertex `through`.
   int straight_on(int edge, int through) const {
-    if (fans_[through].boundary_count > 0) {
-      const auto& [first, second] = fans_[through].boundary_edges;
+    if (fans_[through].sharp_count > 0) {
+      const auto& [first, second] = fans_[through].sharp_edges;
       if (edge != first && edge != second) refuse("a new vertex lies on no boundary edge", Element::Vertex, through);
       return edge == first ? second : first;
     }

@@ -24,15 +24,36 @@ void add_side(SubdivisionLevel& level, int face, int k, int edge) {
   if (edge == level.edge_count()) {
     level.edges.push_back({from, to});
     level.edge_faces.push_back({face, -1});
+    level.creased.push_back(0);
   } else {
     level.edge_faces[edge][1] = face;
   }
   level.face_edges[face][k] = edge;
 }
 
+std::uint64_t edge_key(int a, int b) {
+  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
+}
+
+/// `known`: edges by their key.
+void mark_creases(SubdivisionLevel& level, const std::unordered_map<std::uint64_t, int>& known,
+                  const Creases& creases) {
+  for (std::size_t i = 0; i < creases.size(); ++i) {
+    const auto [a, b] = creases[i];
+    const auto refuse = [a = a, b = b](const std::string& why) {
+      throw Error(Cause::Malformed, "a crease " + why, Place{Element::Edge, a, b});
+    };
+    if (a >= b || (i > 0 && !(creases[i - 1] < creases[i]))) refuse("is not in ascending order");
+    const auto edge = known.find(edge_key(a, b));
+    if (edge == known.end()) refuse("is no edge of the base");
+    if (level.on_boundary(edge->second)) refuse("is an edge of the boundary");
+    level.creased[edge->second] = 1;
+  }
+}
+
 }  // namespace
 
-SubdivisionLevel base_level(int base_vertices, const std::vector<Triangle>& base_faces) {
+SubdivisionLevel base_level(int base_vertices, const std::vector<Triangle>& base_faces, const Creases& creases) {
   SubdivisionLevel level;
   level.vertex_count = base_vertices;
   level.faces = base_faces;
@@ -44,9 +65,7 @@ SubdivisionLevel base_level(int base_vertices, const std::vector<Triangle>& base
     check_face(base_vertices, t, f);
     for (int k = 0; k < 3; ++k) {
       const int from = t[k], to = t[(k + 1) % 3];
-      const std::uint64_t key =
-          (static_cast<std::uint64_t>(std::min(from, to)) << 32) | static_cast<std::uint32_t>(std::max(from, to));
-      const int edge = known.try_emplace(key, level.edge_count()).first->second;
+      const int edge = known.try_emplace(edge_key(from, to), level.edge_count()).first->second;
       if (edge < level.edge_count()) {
         if (level.edge_faces[edge][1] >= 0)
           throw Error(Cause::NonManifoldEdge, "a base edge has more than two faces", Element::Face, f);
@@ -57,6 +76,7 @@ SubdivisionLevel base_level(int base_vertices, const std::vector<Triangle>& base
       add_side(level, f, k, edge);
     }
   }
+  mark_creases(level, known, creases);
   return level;
 }
 
@@ -66,9 +86,10 @@ std::vector<VertexFan> vertex_fans(const SubdivisionLevel& level) {
     for (int v : level.edges[e]) {
       VertexFan& fan = fans[v];
       ++fan.valence;
-      if (level.edge_faces[e][1] >= 0) continue;
-      if (fan.boundary_count < 2) fan.boundary_edges[fan.boundary_count] = e;
-      ++fan.boundary_count;
+      if (!level.sharp(e)) continue;
+      if (fan.sharp_count < 2) fan.sharp_edges[fan.sharp_count] = e;
+      ++fan.sharp_count;
+      fan.crease_count += level.creased[e];
     }
   return fans;
 }
@@ -112,17 +133,18 @@ SubdivisionLevel subdivide(const SubdivisionLevel& coarse) {
     side(4 * f + 3, 1, inner(2));
     side(4 * f + 3, 2, inner(0));
   }
+  for (int half = 0; half < 2 * edges; ++half) fine.creased[number[half]] = coarse.creased[half / 2];
   return fine;
 }
 
-std::vector<SubdivisionLevel> subdivision_levels(int base_vertices, const std::vector<Triangle>& base_faces,
-                                                 int level) {
+std::vector<SubdivisionLevel> subdivision_levels(int base_vertices, const std::vector<Triangle>& base_faces, int level,
+                                                 const Creases& creases) {
   if (level < 0 || level > kMaxSubdivisionLevel)
     throw Error(Cause::BadOption,
                 "subdivision level " + std::to_string(level) + " is not in 0.." + std::to_string(kMaxSubdivisionLevel));
   std::vector<SubdivisionLevel> levels;
   levels.reserve(level + 1);
-  levels.push_back(base_level(base_vertices, base_faces));
+  levels.push_back(base_level(base_vertices, base_faces, creases));
   for (int l = 0; l < level; ++l) levels.push_back(subdivide(levels.back()));
   return levels;
 }
@@ -131,6 +153,10 @@ Mesh SemiregularMesh::mesh() const {
   SubdivisionLevel finest = base_level(base_vertices, base_faces);
   for (int l = 0; l < level; ++l) finest = subdivide(finest);
   return {positions, std::move(finest.faces)};
+}
+
+std::vector<SubdivisionLevel> SemiregularMesh::levels() const {
+  return subdivision_levels(base_vertices, base_faces, level, creases);
 }
 
 }  // namespace gsp

@@ -8,6 +8,9 @@
 
 namespace gsp {
 
+/// Base edges across which a surface is not smooth: pairs a < b of base vertices, in ascending order.
+using Creases = std::vector<std::array<int, 2>>;
+
 /// One level of a semi-regular mesh's connectivity. Vertex and face numbering is fixed by these rules, so that
 /// connectivity is a function of the base faces and the level alone:
 /// - edges are numbered by first appearance over the faces, corner order (0,1), (1,2), (2,0);
@@ -19,14 +22,21 @@ struct SubdivisionLevel {
   std::vector<std::array<int, 2>> edges;       ///< end vertices, in the direction of the first face that has it
   std::vector<std::array<int, 3>> face_edges;  ///< #F, edge of corners (0,1), (1,2), (2,0)
   std::vector<std::array<int, 2>> edge_faces;  ///< #E, the one or two faces; second is -1 on a boundary
+  std::vector<char> creased;                   ///< #E, whether the edge is a crease or a part of one
 
   int edge_count() const { return static_cast<int>(edges.size()); }
   int face_count() const { return static_cast<int>(faces.size()); }
+
+  bool on_boundary(int edge) const { return edge_faces[edge][1] < 0; }
+  /// Whether the surface is not smooth across an edge, which is then the end of it for both sides.
+  bool sharp(int edge) const { return on_boundary(edge) || creased[edge] != 0; }
 
   /// Of an edge, the end that is not `vertex`.
   int other_end(int edge, int vertex) const { return edges[edge][edges[edge][0] == vertex]; }
   /// Of an edge, the face that is not `face`; -1 on a boundary.
   int other_face(int edge, int face) const { return edge_faces[edge][edge_faces[edge][0] == face]; }
+  /// The same, -1 at any sharp edge: the face into which the surface goes on smoothly.
+  int smooth_face(int edge, int face) const { return sharp(edge) ? -1 : other_face(edge, face); }
   /// Of a face, the corner that is not on its side `edge`.
   int opposite_vertex(int face, int edge) const {
     const std::array<int, 3>& sides = face_edges[face];
@@ -45,10 +55,21 @@ struct SubdivisionLevel {
 /// The edges around a vertex of a level.
 struct VertexFan {
   int valence = 0;
-  int boundary_count = 0;                        ///< edges with one face
-  std::array<int, 2> boundary_edges = {-1, -1};  ///< the first two of these
+  int sharp_count = 0;                        ///< edges of the boundary and creases
+  int crease_count = 0;                       ///< those of them that are creases
+  std::array<int, 2> sharp_edges = {-1, -1};  ///< the first two sharp ones
 
-  bool regular() const { return valence == 6 && boundary_count == 0; }
+  bool regular() const { return valence == 6 && sharp_count == 0; }
+  /// In the surface, not on a curve: no sharp edge ends here, or a single crease (a dart; Hoppe et al. 1994, "Piecewise
+  /// smooth surface reconstruction").
+  bool inside() const { return sharp_count < 2; }
+  /// On a boundary or crease that passes through. A vertex of more sharp edges is a corner.
+  bool on_curve() const { return sharp_count == 2; }
+  /// On a crease or its corner, which no detail of the surface beside it moves.
+  bool on_crease() const { return crease_count > 0 && sharp_count > 1; }
+  /// The sharp edge that continues the sharp edge `e` beyond this vertex; -1 where a crease ends. (Boundaries that meet
+  /// in a vertex are told apart by no rule: streams of versions before creases hold them so.)
+  int beyond(int e) const { return crease_count > 0 && !on_curve() ? -1 : sharp_edges[sharp_edges[0] == e]; }
 };
 
 /// #V. O(E).
@@ -58,15 +79,17 @@ std::vector<VertexFan> vertex_fans(const SubdivisionLevel& level);
 inline constexpr int kMaxSubdivisionLevel = 10;
 
 /// The base level. Throws Error: IndexOutOfRange, DegenerateFace, NonManifoldEdge, InconsistentOrientation, each with
-/// the face. O(F).
-SubdivisionLevel base_level(int base_vertices, const std::vector<Triangle>& base_faces);
+/// the face; Malformed where `creases` are not ascending pairs of edges inside, with the edge. O(F).
+SubdivisionLevel base_level(int base_vertices, const std::vector<Triangle>& base_faces, const Creases& creases = {});
 
-/// One quadrisection. O(F), without a search: every finer edge is a half of a coarse edge or lies inside a coarse face.
+/// One quadrisection. O(F), without a search: every finer edge is a half of a coarse edge, and a crease if that is, or
+/// lies inside a coarse face.
 SubdivisionLevel subdivide(const SubdivisionLevel& coarse);
 
 /// Levels 0 (base) to `level`. Throws the errors of `base_level`, and BadOption where `level` is not in
 /// 0..kMaxSubdivisionLevel. O(total faces).
-std::vector<SubdivisionLevel> subdivision_levels(int base_vertices, const std::vector<Triangle>& base_faces, int level);
+std::vector<SubdivisionLevel> subdivision_levels(int base_vertices, const std::vector<Triangle>& base_faces, int level,
+                                                 const Creases& creases = {});
 
 /// The control points of a Loop surface along whose normals the vertices of a mesh lie (displacement.h).
 struct ControlMesh {
@@ -82,9 +105,12 @@ struct SemiregularMesh {
   std::vector<Triangle> base_faces;
   std::vector<Vec3> positions;
   std::optional<ControlMesh> control = {};  ///< of a displaced mesh
+  Creases creases = {};
 
   /// The finest level as a plain mesh.
   Mesh mesh() const;
+  /// Levels 0 to `level`, with the creases. Throws what `subdivision_levels` throws.
+  std::vector<SubdivisionLevel> levels() const;
 };
 
 }  // namespace gsp

@@ -1,7 +1,9 @@
 #include "remesh/semiregular_file.h"
 
+#include <array>
 #include <cstdint>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <sstream>
 
@@ -19,6 +21,7 @@ constexpr const char* kSignature = "gsp semiregular 1";
 
 struct Counts {
   std::optional<int> level, base_vertices, base_faces;
+  int creases = 0;
   std::optional<double> control_grid;
 };
 
@@ -47,6 +50,7 @@ std::optional<Counts> read_counts(const std::string& path) {
     if (key == "level") counts.level = value;
     if (key == "base_vertices") counts.base_vertices = value;
     if (key == "base_faces") counts.base_faces = value;
+    if (key == "creases") counts.creases = value;
   }
   return signed_by_us ? std::optional<Counts>(counts) : std::nullopt;
 }
@@ -75,8 +79,38 @@ PlyElement ply_control(const ControlMesh& control) {
   return element;
 }
 
-ControlMesh read_control(const std::string& path, double grid) {
-  const PlyDocument document = read_ply(path);
+constexpr std::array<const char*, 2> kCreaseEnds = {"base_vertex_0", "base_vertex_1"};
+
+PlyElement ply_creases(const Creases& creases) {
+  PlyElement element{"crease", creases.size(), {}};
+  for (int k = 0; k < 2; ++k) {
+    element.properties.push_back({kCreaseEnds[k], PlyType::Int32, {}, {}, {}});
+    for (const auto& ends : creases) element.properties[k].values.push_back(ends[k]);
+  }
+  return element;
+}
+
+/// That they are base edges is for `base_level` to check.
+Creases read_creases(const std::string& path, const PlyDocument& document, int count) {
+  const PlyElement* element = document.find("crease");
+  if (!element || element->count != static_cast<std::size_t>(count))
+    throw Error(Cause::Malformed,
+                path + ": the comments name " + std::to_string(count) + " creases, not as many as are there");
+  Creases creases(element->count);
+  for (int k = 0; k < 2; ++k) {
+    const PlyProperty* property = element->scalar(kCreaseEnds[k]);
+    if (!property) throw Error(Cause::Malformed, path + ": creases without " + kCreaseEnds[k]);
+    for (std::size_t i = 0; i < creases.size(); ++i) {
+      const double end = property->values[i];
+      if (!(end >= 0.0 && end <= std::numeric_limits<int>::max()))
+        throw Error(Cause::Malformed, path + ": a crease ends at no vertex");
+      creases[i][k] = static_cast<int>(end);
+    }
+  }
+  return creases;
+}
+
+ControlMesh read_control(const std::string& path, const PlyDocument& document, double grid) {
   const PlyElement* element = document.find("control");
   ControlMesh control{{}, grid};
   if (!element) throw Error(Cause::Malformed, path + ": no element 'control'");
@@ -91,17 +125,27 @@ ControlMesh read_control(const std::string& path, double grid) {
   return control;
 }
 
-void write_displaced(const std::string& path, const SemiregularMesh& mesh, std::vector<std::string> comments) {
-  std::ostringstream grid;
-  grid.precision(17);
-  grid << "control_grid " << mesh.control->grid;
-  comments.push_back(grid.str());
+void write_with_elements(const std::string& path, const SemiregularMesh& mesh, std::vector<std::string> comments) {
   const Mesh plain = mesh.mesh();
   PlyElement vertices = ply_vertices(plain);
-  vertices.properties.push_back(numbers("displacement"));
-  vertices.properties.back().values = displaced_form(mesh).displacements.along;
+  std::vector<PlyElement> more;
+  if (!mesh.creases.empty()) {
+    comments.push_back("creases " + std::to_string(mesh.creases.size()));
+    more.push_back(ply_creases(mesh.creases));
+  }
+  if (mesh.control) {
+    std::ostringstream grid;
+    grid.precision(17);
+    grid << "control_grid " << mesh.control->grid;
+    comments.push_back(grid.str());
+    vertices.properties.push_back(numbers("displacement"));
+    vertices.properties.back().values = displaced_form(mesh).displacements.along;
+    more.push_back(ply_control(*mesh.control));
+  }
+  std::vector<PlyElement> elements = {std::move(vertices), ply_faces(plain)};
+  elements.insert(elements.end(), more.begin(), more.end());
   AtomicFile file(path);
-  write_ply(file.stream(), {std::move(comments), {std::move(vertices), ply_faces(plain), ply_control(*mesh.control)}});
+  write_ply(file.stream(), {std::move(comments), std::move(elements)});
   file.commit();
 }
 
@@ -113,8 +157,8 @@ void write_semiregular(const std::string& path, const SemiregularMesh& mesh,
                                        "base_vertices " + std::to_string(mesh.base_vertices),
                                        "base_faces " + std::to_string(mesh.base_faces.size())};
   comments.insert(comments.end(), provenance.begin(), provenance.end());
-  if (mesh.control)
-    write_displaced(path, mesh, std::move(comments));
+  if (mesh.control || !mesh.creases.empty())
+    write_with_elements(path, mesh, std::move(comments));
   else
     write_mesh(path, mesh.mesh(), comments);
 }
@@ -136,7 +180,7 @@ SemiregularMesh read_semiregular(const std::string& path) {
   mesh.positions = plain.positions;
   SubdivisionLevel finest;
   try {
-    finest = subdivision_levels(mesh.base_vertices, mesh.base_faces, mesh.level).back();
+    finest = mesh.levels().back();
   } catch (const Error& error) {
     refuse(path, error.what());
   }
@@ -144,8 +188,14 @@ SemiregularMesh read_semiregular(const std::string& path) {
     if (finest.faces[f] != plain.faces[f])
       throw Error(Cause::NoSubdivisionConnectivity, path + ": a face is not the one its level has", Element::Face, f);
   if (finest.vertex_count != plain.vertex_count()) refuse(path, "the number of vertices is not the level's");
+  if (!counts->control_grid && counts->creases == 0) return mesh;
+  const PlyDocument document = read_ply(path);
+  if (counts->creases != 0) {
+    mesh.creases = read_creases(path, document, counts->creases);
+    base_level(mesh.base_vertices, mesh.base_faces, mesh.creases);
+  }
   if (counts->control_grid) {
-    mesh.control = read_control(path, *counts->control_grid);
+    mesh.control = read_control(path, document, *counts->control_grid);
     displaced_form(mesh);
   }
   return mesh;

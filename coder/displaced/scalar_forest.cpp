@@ -53,9 +53,9 @@ class AcrossPart {
     if (level == 0) {
       const std::vector<VertexFan> fans = vertex_fans(levels_[0]);
       for (int v = 0; v < levels_[0].vertex_count; ++v)
-        if (fans[v].boundary_count == 2) add(v);
+        if (fans[v].sharp_count == 2) add(v);
       for (int n = begin; n < forest_.nodes(); ++n)
-        for (int e : fans[forest_.vertex[n]].boundary_edges)
+        for (int e : fans[forest_.vertex[n]].sharp_edges)
           if (const int w = node_[levels_[0].other_end(e, forest_.vertex[n])]; w >= 0) append(forest_.neighbours[n], w);
     } else {
       add_edges(levels_[level - 1]);
@@ -83,8 +83,8 @@ class AcrossPart {
       for (int k = 0; k < 2; ++k) {
         const int end = coarse.edges[e][k];
         forest_.ends[n][k] = node_[end];
-        if (fans[end].boundary_count != 2) continue;
-        for (int other : fans[end].boundary_edges)
+        if (fans[end].sharp_count != 2) continue;
+        for (int other : fans[end].sharp_edges)
           if (other != e) append(forest_.neighbours[n], node_[coarse.vertex_count + other]);
       }
       const int parent = forest_.parent[v] < 0 ? ScalarForest::kNone : node_[forest_.vertex[forest_.parent[v]]];

@@ -28,8 +28,8 @@ class ControlFit {
         target_boundary_(target.level) {
     const std::vector<VertexFan> fans = vertex_fans(finest_);
     for (int v = 0; v < finest_.vertex_count; ++v) {
-      if (fans[v].boundary_count != 2) continue;
-      const auto [a, b] = fans[v].boundary_edges;
+      if (fans[v].sharp_count != 2) continue;
+      const auto [a, b] = fans[v].sharp_edges;
       boundary_.push_back({finest_.other_end(a, v), v, finest_.other_end(b, v)});
     }
     for (int f = 0; f < finest_.face_count(); ++f)

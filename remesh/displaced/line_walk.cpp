@@ -36,8 +36,8 @@ BoundaryWalk::BoundaryWalk(const SubdivisionLevel& level) : beside_(level.vertex
   for (int e = 0; e < level.edge_count(); ++e) {
     if (level.edge_faces[e][1] >= 0) continue;
     const auto [a, b] = level.edges[e];
-    if (fans[a].boundary_count == 2) beside_[a][1] = b;
-    if (fans[b].boundary_count == 2) beside_[b][0] = a;
+    if (fans[a].sharp_count == 2) beside_[a][1] = b;
+    if (fans[b].sharp_count == 2) beside_[b][0] = a;
   }
 }
 

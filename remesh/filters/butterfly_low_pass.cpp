@@ -22,8 +22,8 @@ class ButterflyLowPass : public TapFilter<ButterflyLowPass> {
     for (int e = 0; e < level_.edge_count(); ++e) {
       const auto [a, b] = level_.edges[e];
       const bool a_irregular = irregular(a), b_irregular = irregular(b);
-      if (level_.edge_faces[e][1] < 0) {
-        boundary_stencil(e, take);
+      if (level_.sharp(e)) {
+        curve_stencil(e, take);
       } else if (!a_irregular && !b_irregular) {
         regular_stencil(e, take);
       } else {
@@ -35,7 +35,7 @@ class ButterflyLowPass : public TapFilter<ButterflyLowPass> {
   }
 
  private:
-  bool irregular(int v) const { return fans_[v].boundary_count == 0 && fans_[v].valence != 6 && fans_[v].valence >= 3; }
+  bool irregular(int v) const { return fans_[v].sharp_count == 0 && fans_[v].valence != 6 && fans_[v].valence >= 3; }
 
   template <class Take>
   void regular_stencil(int e, Take take) const {
@@ -45,7 +45,7 @@ class ButterflyLowPass : public TapFilter<ButterflyLowPass> {
       const int opposite = level_.opposite_vertex(face, e);
       take(odd(e), opposite, 0.125);
       for (const auto& [corner, far] : {std::pair{a, b}, std::pair{b, a}}) {
-        const int side = level_.other_side(face, e, corner), beyond = level_.other_face(side, face);
+        const int side = level_.other_side(face, e, corner), beyond = level_.smooth_face(side, face);
         if (beyond >= 0) {
           take(odd(e), level_.opposite_vertex(beyond, side), -1.0 / 16);
         } else {
@@ -84,12 +84,11 @@ class ButterflyLowPass : public TapFilter<ButterflyLowPass> {
   }
 
   template <class Take>
-  void boundary_stencil(int e, Take take) const {
+  void curve_stencil(int e, Take take) const {
     const auto [a, b] = level_.edges[e];
     for (const auto& [near, far] : {std::pair{a, b}, std::pair{b, a}}) {
       take(odd(e), near, 9.0 / 16);
-      const std::array<int, 2>& boundary = fans_[near].boundary_edges;
-      const int next = boundary[boundary[0] == e];
+      const int next = fans_[near].beyond(e);
       if (next >= 0) {
         take(odd(e), level_.other_end(next, near), -1.0 / 16);
       } else {

@@ -16,7 +16,7 @@ class LimitPoints : public TapFilter<LimitPoints> {
   explicit LimitPoints(const SubdivisionLevel& level) : TapFilter(level), fans_(vertex_fans(level)) {
     neighbour_.reserve(fans_.size());
     for (const VertexFan& fan : fans_) {
-      const bool inside = fan.boundary_count == 0 && fan.valence > 0;
+      const bool inside = fan.inside() && fan.valence > 0;
       neighbour_.push_back(fan.regular() ? 1.0 / 12 : inside ? inside_weight(fan.valence) : 0.0);
     }
   }
@@ -24,13 +24,13 @@ class LimitPoints : public TapFilter<LimitPoints> {
   template <class Take>
   void for_each_tap(Take take) const {
     for (int v = 0; v < level_.vertex_count; ++v)
-      take(v, v, fans_[v].boundary_count == 2 ? 2.0 / 3 : 1.0 - fans_[v].valence * neighbour_[v]);
+      take(v, v, fans_[v].on_curve() ? 2.0 / 3 : 1.0 - fans_[v].valence * neighbour_[v]);
     for (int e = 0; e < level_.edge_count(); ++e) {
       const auto [a, b] = level_.edges[e];
-      const bool boundary = level_.edge_faces[e][1] < 0;
+      const bool sharp = level_.sharp(e);
       for (const auto& [v, other] : {std::pair{a, b}, std::pair{b, a}}) {
-        if (fans_[v].boundary_count == 0) take(v, other, neighbour_[v]);
-        if (fans_[v].boundary_count == 2 && boundary) take(v, other, 1.0 / 6);
+        if (fans_[v].inside()) take(v, other, neighbour_[v]);
+        if (fans_[v].on_curve() && sharp) take(v, other, 1.0 / 6);
       }
     }
   }

@@ -14,11 +14,8 @@ class LoopLowPass : public TapFilter<LoopLowPass> {
   explicit LoopLowPass(const SubdivisionLevel& coarse) : TapFilter(coarse), fans_(vertex_fans(coarse)) {
     kept_.reserve(fans_.size());
     for (const VertexFan& fan : fans_) {
-      const bool inside = fan.boundary_count == 0 && fan.valence > 0;
-      kept_.push_back(fan.regular()             ? 0.625
-                      : inside                  ? loop_kept_weight(fan.valence)
-                      : fan.boundary_count == 2 ? 0.75
-                                                : 1.0);
+      const bool inside = fan.inside() && fan.valence > 0;
+      kept_.push_back(fan.regular() ? 0.625 : inside ? loop_kept_weight(fan.valence) : fan.on_curve() ? 0.75 : 1.0);
     }
   }
 
@@ -33,13 +30,13 @@ class LoopLowPass : public TapFilter<LoopLowPass> {
   void edge_taps(int e, Take take) const {
     const auto [a, b] = level_.edges[e];
     const auto [left, right] = level_.edge_faces[e];
-    const bool boundary = right < 0;
+    const bool sharp = level_.sharp(e);
     for (const auto& [v, other] : {std::pair{a, b}, std::pair{b, a}}) {
-      if (fans_[v].boundary_count == 0) take(v, other, (1.0 - kept_[v]) / fans_[v].valence);
-      if (fans_[v].boundary_count == 2 && boundary) take(v, other, 0.125);
+      if (fans_[v].inside()) take(v, other, (1.0 - kept_[v]) / fans_[v].valence);
+      if (fans_[v].on_curve() && sharp) take(v, other, 0.125);
     }
-    for (int v : {a, b}) take(odd(e), v, boundary ? 0.5 : 0.375);
-    if (boundary) return;
+    for (int v : {a, b}) take(odd(e), v, sharp ? 0.5 : 0.375);
+    if (sharp) return;
     for (int face : {left, right}) take(odd(e), level_.opposite_vertex(face, e), 0.125);
   }
 

@@ -7,7 +7,7 @@
 namespace gsp {
 
 /// Loop subdivision, from the vertices of a level to those of the next: smooth rules inside, the cubic spline's on
-/// boundaries, vertices with other than two boundary edges fixed (algorithms.md §5; Loop 1987, Hoppe et al. 1994).
+/// boundaries and creases, corners (VertexFan) fixed (algorithms.md §5; Loop 1987, Hoppe et al. 1994).
 std::unique_ptr<Filter> loop_low_pass(const SubdivisionLevel& coarse);
 
 /// Weight that a vertex inside keeps, whatever its valence: 5/8 at valence 6.

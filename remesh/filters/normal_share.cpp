@@ -10,7 +10,7 @@ NormalShare normal_share(const SemiregularMesh& mesh) {
   double extent = 0.0;
   for (const Vec3& p : mesh.positions) extent = std::max(extent, (p - mesh.positions[0]).cwiseAbs().maxCoeff());
   NormalShare share;
-  SubdivisionLevel level = base_level(mesh.base_vertices, mesh.base_faces);
+  SubdivisionLevel level = base_level(mesh.base_vertices, mesh.base_faces, mesh.creases);
   for (int l = 0; l < mesh.level; ++l) {
     const std::vector<Vec3> coarse(mesh.positions.begin(), mesh.positions.begin() + level.vertex_count);
     std::vector<Vec3> predicted(level.vertex_count + level.edges.size(), Vec3::Zero());
@@ -18,7 +18,7 @@ NormalShare normal_share(const SemiregularMesh& mesh) {
     const EdgeFrames frames(level, coarse);
     for (int e = 0; e < level.edge_count(); ++e) {
       ++share.vertices;
-      if (level.edge_faces[e][1] < 0) {
+      if (level.sharp(e)) {
         ++share.boundary;
         continue;
       }

@@ -98,8 +98,8 @@ TEST_CASE("a scalar field's coefficients bring it back, and inside nothing is ac
       int boundary = 0;
       for (const VertexFan& fan : fans) {
         numbers.along.push_back(random.uniform() - 0.5);
-        numbers.across.push_back(fan.boundary_count == 2 ? random.uniform() - 0.5 : 0.0);
-        boundary += fan.boundary_count == 2;
+        numbers.across.push_back(fan.sharp_count == 2 ? random.uniform() - 0.5 : 0.0);
+        boundary += fan.sharp_count == 2;
       }
       CHECK(forest.nodes() == levels.back().vertex_count + boundary);
       const Displacements back = field.synthesis(field.analysis(numbers));

@@ -85,7 +85,7 @@ TEST_CASE("the fit is never farther from its samples than where it starts") {
         CHECK_FALSE(FoldGuard(finest, areas).hold(sampled.positions, moved, held));
         const std::vector<VertexFan> fans = vertex_fans(finest);
         for (std::size_t v = 0; v < fans.size(); ++v)
-          if (fans[v].boundary_count > 0) CHECK(moved[v] == sampled.positions[v]);
+          if (fans[v].sharp_count > 0) CHECK(moved[v] == sampled.positions[v]);
       }
     }
 }

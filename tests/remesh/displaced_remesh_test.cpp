@@ -131,7 +131,7 @@ TEST_CASE("a second number takes boundary vertices to a boundary that is no spli
     const DisplacedForm form = displaced_form(mesh);
     const auto fans = vertex_fans(subdivision_levels(mesh.base_vertices, mesh.base_faces, 3).back());
     for (std::size_t v = 0; v < fans.size(); ++v) {
-      if (fans[v].boundary_count == 0) {
+      if (fans[v].sharp_count == 0) {
         CHECK(form.displacements.across[v] == 0.0);
         continue;
       }

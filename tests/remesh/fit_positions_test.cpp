@@ -167,7 +167,7 @@ TEST_CASE("what lies inside has no part in the boundary's fit") {
   const std::vector<VertexFan> fans = vertex_fans(subdivision_levels(a.base_vertices, a.base_faces, 3).back());
   int on_boundary = 0;
   for (std::size_t v = 0; v < fans.size(); ++v) {
-    if (fans[v].boundary_count == 0) continue;
+    if (fans[v].sharp_count == 0) continue;
     ++on_boundary;
     CHECK(a.positions[v] == b.positions[v]);
   }

@@ -1,11 +1,13 @@
 #include "remesh/semiregular_file.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 
 #include "mesh/error.h"
 #include "mesh/io.h"
 #include "mesh/shapes.h"
+#include "remesh/recover_levels.h"
 #include "tests/cause_of.h"
 
 using namespace gsp;
@@ -53,5 +55,30 @@ TEST_CASE("a semi-regular file comes back bit for bit, and a changed one is refu
   Mesh swapped = plain;
   std::swap(swapped.faces[5], swapped.faces[6]);
   CHECK(with(swapped, "level 2", "base_vertices 12", "base_faces 20") == Cause::NoSubdivisionConnectivity);
+  std::filesystem::remove(path);
+}
+
+TEST_CASE("creases come back with a semi-regular file, and those that are no base edges are refused") {
+  const std::string path = temporary("gsp_semiregular_creases_test.sr.ply");
+  SemiregularMesh mesh = flat_refinement(shapes::icosahedron(), 1);
+  for (const auto& [a, b] : {mesh.levels()[0].edges[0], mesh.levels()[0].edges[7]})
+    mesh.creases.push_back({std::min(a, b), std::max(a, b)});
+  std::sort(mesh.creases.begin(), mesh.creases.end());
+  write_semiregular(path, mesh);
+  const SemiregularMesh back = read_semiregular(path);
+  CHECK(back.creases == mesh.creases);
+  CHECK(back.positions == mesh.positions);
+  CHECK(read_mesh(path).faces == mesh.mesh().faces);
+
+  const auto with = [&](const Creases& creases) {
+    mesh.creases = creases;
+    write_semiregular(path, mesh);
+    return cause_of([&] { read_or_recover(path); });
+  };
+  const auto [a, b] = mesh.creases[0];
+  CHECK(with({{a, b}, {a, b}}) == Cause::Malformed);
+  CHECK(with({{b, a}}) == Cause::Malformed);
+  CHECK(with({{0, 1000}}) == Cause::Malformed);
+  CHECK(with({{-1, 0}}) == Cause::Malformed);
   std::filesystem::remove(path);
 }

@@ -1,5 +1,6 @@
 #include "remesh/semiregular.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "mesh/error.h"
@@ -37,4 +38,25 @@ TEST_CASE("a base that is not an oriented manifold is refused with its face") {
   CHECK(cause_of([] { base_level(4, {{0, 1, 2}, {0, 1, 3}}); }) == Cause::InconsistentOrientation);
   CHECK(cause_of([] { base_level(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}); }) == Cause::NonManifoldEdge);
   CHECK(cause_of([] { subdivision_levels(3, {{0, 1, 2}}, 11); }) == Cause::BadOption);
+}
+
+TEST_CASE("the halves of a crease are creases, and no other edge is") {
+  const Mesh base = shapes::grid(2, 2);
+  Creases creases;
+  for (const auto& [a, b] : base_level(base.vertex_count(), base.faces).edges)
+    if (std::min(a, b) == 4) creases.push_back({std::min(a, b), std::max(a, b)});
+  std::sort(creases.begin(), creases.end());
+  REQUIRE(!creases.empty());
+  const auto levels = subdivision_levels(base.vertex_count(), base.faces, 3, creases);
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    CHECK(std::count(levels[l].creased.begin(), levels[l].creased.end(), 1) == static_cast<long>(creases.size() << l));
+    if (l == 0) continue;
+    for (int e = 0; e < levels[l].edge_count(); ++e) {
+      if (!levels[l].creased[e]) continue;
+      const int newer = std::max(levels[l].edges[e][0], levels[l].edges[e][1]) - levels[l - 1].vertex_count;
+      REQUIRE(newer >= 0);
+      CHECK(levels[l - 1].creased[newer]);
+    }
+  }
+  CHECK(cause_of([&] { base_level(base.vertex_count(), base.faces, {{0, 1}}); }) == Cause::Malformed);
 }
