@@ -201,6 +201,51 @@ Mesh genus_slab(int genus, int level) {
   return mesh;
 }
 
+Mesh box(int level) {
+  CubeSurface surface;
+  for (int axis = 0; axis < 3; ++axis)
+    for (bool positive : {false, true}) surface.add_side({0, 0, 0}, axis, positive);
+  Mesh mesh = surface.take();
+  for (int l = 0; l < level; ++l) mesh = quadrisect(mesh);
+  return mesh;
+}
+
+Mesh cylinder(int sectors) {
+  const int rings = sectors / 4 + 1, rows = 4 * rings;
+  Mesh mesh{{{0.0, 0.0, -1.0}}, {}};
+  for (int row = 1; row < rows; ++row) {
+    const bool below = row<rings, above = row> 3 * rings;
+    const double r = double(below ? row : above ? rows - row : rings) / rings;
+    const double z = below ? -1.0 : above ? 1.0 : double(row - 2 * rings) / rings;
+    for (int s = 0; s < sectors; ++s)
+      mesh.positions.emplace_back(r * std::cos(2.0 * kPi * s / sectors), r * std::sin(2.0 * kPi * s / sectors), z);
+  }
+  mesh.positions.emplace_back(0.0, 0.0, 1.0);
+  const int top = mesh.vertex_count() - 1;
+  const auto at = [&](int row, int s) { return 1 + (row - 1) * sectors + s % sectors; };
+  for (int s = 0; s < sectors; ++s) {
+    mesh.faces.push_back({0, at(1, s + 1), at(1, s)});
+    for (int row = 1; row + 1 < rows; ++row) {
+      mesh.faces.push_back({at(row, s), at(row, s + 1), at(row + 1, s + 1)});
+      mesh.faces.push_back({at(row, s), at(row + 1, s + 1), at(row + 1, s)});
+    }
+    mesh.faces.push_back({top, at(rows - 1, s), at(rows - 1, s + 1)});
+  }
+  return mesh;
+}
+
+Mesh lens(int level) {
+  Mesh mesh = octahedron();
+  for (int l = 0; l < level; ++l) mesh = quadrisect(mesh);
+  for (Vec3& p : mesh.positions) {  // |x| + |y| + |z| is 1
+    const double r = std::hypot(p.x(), p.y()), ratio = r > 0.0 ? (std::abs(p.x()) + std::abs(p.y())) / r : 0.0;
+    const double side = p.z() > 0.0 ? 0.5 : p.z() < 0.0 ? -0.5 : 0.0;
+    p = {p.x() * ratio, p.y() * ratio, 0.0};
+    p.z() = side * (1.0 - p.squaredNorm());
+  }
+  return mesh;
+}
+
 Mesh twice(const Mesh& mesh, const Vec3& offset) {
   Mesh both = mesh;
   const int shift = mesh.vertex_count();

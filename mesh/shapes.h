@@ -32,6 +32,15 @@ Mesh sector_disc(int sectors, int level);
 /// A closed surface of the given genus >= 0: a row of `genus` square holes through a slab, quadrisected `level` times
 /// and smoothed a little so that it is not flat.
 Mesh genus_slab(int genus, int level);
+/// The unit cube, each side two triangles, quadrisected `level` >= 0 times: 12 sharp edges of length 1.
+Mesh box(int level);
+/// A closed cylinder of radius 1 about the z axis with flat ends at ±1, `sectors` >= 3 around: two sharp rims. Its ends
+/// have `sectors` / 4 + 1 rings of faces, its side twice as many.
+Mesh cylinder(int sectors);
+/// Two equal caps of paraboloids z = ±(1 - r²)/2, joined along the unit circle at 90°: an octahedron quadrisected
+/// `level`
+/// >= 1 times.
+Mesh lens(int level);
 /// Two copies of a mesh side by side, as one mesh of twice the components.
 Mesh twice(const Mesh& mesh, const Vec3& offset);
 /// Every face of a manifold mesh split into four at its edge midpoints; old vertices first, then one per edge in order

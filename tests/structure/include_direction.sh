@@ -60,7 +60,7 @@ may_include remesh 'param|mesh'
 may_include coder 'remesh|mesh'
 may_include metrics 'param|mesh'
 may_include experiments 'mesh|param|remesh|coder|metrics'
-rooms mesh files
+rooms mesh files features
 rooms param map atlas linear refined energy removal simplify reinsert corners baselines stages
 rooms remesh filters normal displaced scalar
 rooms coder displaced
