@@ -4,6 +4,7 @@
 #include <bit>
 #include <unordered_map>
 
+#include "coder/base_creases.h"
 #include "coder/bit_model.h"
 #include "coder/range_coder.h"
 #include "mesh/error.h"
@@ -114,13 +115,6 @@ class Reader {
   static constexpr int kMemory = 60;
   RangeDecoder coder_;
 };
-
-AdaptiveBit expecting(double probability) {
-  AdaptiveBit bit;
-  bit.set = static_cast<std::uint16_t>(65536 * probability);
-  bit.seen = 4;
-  return bit;
-}
 
 /// Where the face beyond a side has its third corner. The encoder fills it in, the decoder receives it.
 struct Third {
@@ -244,11 +238,25 @@ class Renaming {
   int first_left_ = 0;
 };
 
+std::array<int, 2> ascending(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// Creases of the base, after its faces. `named`: those of the encoder in the coded numbering.
+template <class Side>
+Creases code_creases(const CodedBase& base, Side& side, const Creases& named) {
+  const SubdivisionLevel level = base_level(base.vertices, base.faces, named);
+  const std::vector<char> found = CreaseCoder<Side>(level, side).run(level.creased);
+  Creases creases;
+  for (int e = 0; e < level.edge_count(); ++e)
+    if (found[e]) creases.push_back(ascending(level.edges[e][0], level.edges[e][1]));
+  std::sort(creases.begin(), creases.end());
+  return creases;
+}
+
 [[noreturn]] void refuse() { throw Error(Cause::BadStream, "the base connectivity of the coded mesh is damaged"); }
 
 }  // namespace
 
-CodedBase encode_connectivity(const std::vector<Triangle>& faces, Bytes& out) {
+CodedBase encode_connectivity(const std::vector<Triangle>& faces, Bytes& out, const Creases& creases) {
   Writer writer(out);
   ConnectivityCoder<Writer> coder(writer);
   Renaming names(faces);
@@ -281,13 +289,19 @@ CodedBase encode_connectivity(const std::vector<Triangle>& faces, Bytes& out) {
     names.take(h);
     coder.push_gates(static_cast<int>(surface.faces.size()) - 1);
   }
-  writer.finish();
   names.base.vertices = surface.vertex_count();
   names.base.faces = std::move(surface.faces);
+  if (!creases.empty()) {
+    Creases named;
+    for (const auto& [a, b] : creases) named.push_back(ascending(names.coded(a), names.coded(b)));
+    std::sort(named.begin(), named.end());
+    names.base.creases = code_creases(names.base, writer, named);
+  }
+  writer.finish();
   return std::move(names.base);
 }
 
-CodedBase decode_connectivity(int face_count, const std::uint8_t* begin, const std::uint8_t* end) {
+CodedBase decode_connectivity(int face_count, bool creased, const std::uint8_t* begin, const std::uint8_t* end) {
   Reader reader(begin, end);
   ConnectivityCoder<Reader> coder(reader);
   GrowingSurface& surface = coder.surface;
@@ -312,13 +326,14 @@ CodedBase decode_connectivity(int face_count, const std::uint8_t* begin, const s
       if (!surface.add(t)) refuse();
       coder.push_gates(static_cast<int>(surface.faces.size()) - 1);
     }
+    CodedBase base;
+    base.vertices = surface.vertex_count();
+    base.faces = std::move(surface.faces);
+    if (creased) base.creases = code_creases(base, reader, {});
+    return base;
   } catch (const StreamEnd&) {
     refuse();
   }
-  CodedBase base;
-  base.vertices = surface.vertex_count();
-  base.faces = std::move(surface.faces);
-  return base;
 }
 
 }  // namespace gsp

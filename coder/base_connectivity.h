@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesh/mesh.h"
+#include "remesh/semiregular.h"
 
 namespace gsp {
 
@@ -13,6 +13,7 @@ using Bytes = std::vector<std::uint8_t>;
 struct CodedBase {
   int vertices = 0;
   std::vector<Triangle> faces;     ///< vertices numbered by first appearance
+  Creases creases;                 ///< of these vertices
   std::vector<int> source_vertex;  ///< #V, index in the encoder's input
   std::vector<int> source_face;    ///< #F, index in the encoder's input
   std::vector<int> source_corner;  ///< #F, corner of that face which is corner 0 here
@@ -21,11 +22,12 @@ struct CodedBase {
 /// Appends the connectivity of any oriented triangle mesh without edges of more than two faces: faces are added one by
 /// one at an open side, always closing the fan of one vertex first, and each costs what the valences so far leave
 /// uncertain (Touma and Gotsman 1998 in spirit; handles, boundaries and several components need no special case). O(F).
-/// The faces must have passed `base_level`. Vertices without a face are lost.
-CodedBase encode_connectivity(const std::vector<Triangle>& faces, Bytes& out);
+/// Faces and creases must have passed `base_level`. Vertices without a face are lost. Creases, if there are any, follow
+/// (base_creases.h).
+CodedBase encode_connectivity(const std::vector<Triangle>& faces, Bytes& out, const Creases& creases = {});
 
-/// Reads `face_count` faces back from [begin, end); `source_*` stay empty. Takes memory in proportion to the faces that
-/// the bytes really hold. Throws Error(BadStream).
-CodedBase decode_connectivity(int face_count, const std::uint8_t* begin, const std::uint8_t* end);
+/// Reads `face_count` faces back from [begin, end), and creases where `creased`; `source_*` stay empty. Takes memory in
+/// proportion to the faces that the bytes really hold. Throws Error(BadStream).
+CodedBase decode_connectivity(int face_count, bool creased, const std::uint8_t* begin, const std::uint8_t* end);
 
 }  // namespace gsp

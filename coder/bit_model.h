@@ -55,6 +55,9 @@ struct AdaptiveBit {
   }();
 };
 
+/// A context that has seen a few bits of that probability.
+inline AdaptiveBit expecting(double probability) { return {static_cast<std::uint16_t>(65536 * probability), 4}; }
+
 /// One kind of decision, predicted by N contexts at once, whose opinions are weighed in the logistic domain by weights
 /// that are learned on line (Mahoney, "Adaptive weighing of context models for lossless data compression", 2005).
 /// `Mixers`: number of weight sets; `Sizes`: number of values of each context.

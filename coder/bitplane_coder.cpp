@@ -110,11 +110,11 @@ class BitplaneCoder {
   }
 
   /// Nodes without a component are known down to the last plane, as all that is below them is.
-  bool is_silent(int n, int c) const { return layout_.scalar && c != 0 && !forest_.on_boundary(n); }
+  bool is_silent(int n, int c) const { return layout_.scalar && c != 0 && !forest_.on_curve(n); }
 
   void silence_tangential() {
     for (int n = 0; n < forest_.nodes(); ++n) {
-      if (forest_.on_boundary(n)) continue;
+      if (forest_.on_curve(n)) continue;
       for (int c = 1; c < 3; ++c) known_.details[c].low_plane[n] = tree_low_plane_[c][n] = 0;
     }
   }

@@ -42,7 +42,7 @@ struct BitplaneLayout {
   int base_planes = 0;                            ///< bits of a base coordinate, 0..31
   int detail_planes = 0;                          ///< bits of the largest detail magnitude, 0..31
   int levels = 0;                                 ///< detail levels of the stream; the forest may end earlier
-  bool scalar = false;                            ///< nodes have tangential components on the boundary only
+  bool scalar = false;                            ///< nodes have tangential components on boundaries and creases only
   std::vector<std::vector<int>> base_neighbours;  ///< #B, adjacent base vertices
   Urgency urgency;
   /// The last pass that an encoder writes, at least kMaxUrgency, with which every node's last plane ends. A stream that

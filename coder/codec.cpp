@@ -35,10 +35,12 @@ void check(const SemiregularMesh& mesh, const EncodeOptions& options) {
       !std::has_single_bit(static_cast<unsigned>(options.tangential_ratio)))
     throw Error(Cause::BadOption,
                 "tangential_ratio " + std::to_string(options.tangential_ratio) + " is not 1, 2, 4 or 8");
+  if (mesh.control && !mesh.creases.empty())
+    throw Error(Cause::BadOption, "displaced meshes with creases are not coded: their surface is smooth");
   if (mesh.base_faces.empty()) throw Error(Cause::NoFaces, "a mesh without base faces cannot be coded");
   require_computable(mesh.positions);
   std::vector<bool> used(mesh.base_vertices, false);
-  for (const Triangle& t : base_level(mesh.base_vertices, mesh.base_faces).faces)
+  for (const Triangle& t : base_level(mesh.base_vertices, mesh.base_faces, mesh.creases).faces)
     for (int v : t) used[v] = true;
   for (int v = 0; v < mesh.base_vertices; ++v)
     if (!used[v]) throw Error(Cause::Malformed, "a base vertex belongs to no face", Element::Vertex, v);
@@ -62,24 +64,24 @@ int finest_significant_level(const BitplaneCoefficients& known, const EdgeForest
   return level;
 }
 
-/// Normal where no detail but those of boundary edges has a tangential component, to the stream's precision.
+/// Normal where no detail but those of sharp edges has a tangential component, to the stream's precision.
 StreamKind kind_of(const EdgeForest& forest, const BitplaneCoefficients& integers) {
   for (int n = 0; n < forest.nodes(); ++n)
-    if (!forest.on_boundary(n) && (integers.details[1].magnitude[n] | integers.details[2].magnitude[n]) != 0)
+    if (!forest.on_curve(n) && (integers.details[1].magnitude[n] | integers.details[2].magnitude[n]) != 0)
       return StreamKind::Parametric;
   return StreamKind::Normal;
 }
 
-/// Of all details but those of boundary edges.
+/// Of all details but those of sharp edges.
 void drop_tangential(const EdgeForest& forest, BitplaneCoefficients& integers) {
   for (int n = 0; n < forest.nodes(); ++n)
-    if (!forest.on_boundary(n)) integers.details[1].magnitude[n] = integers.details[2].magnitude[n] = 0;
+    if (!forest.on_curve(n)) integers.details[1].magnitude[n] = integers.details[2].magnitude[n] = 0;
 }
 
 /// The levels whose edges carry details of a mesh of `level`.
 std::vector<SubdivisionLevel> detail_levels(const StreamHeader& header, int level) {
   if (level == 0) return {};
-  return subdivision_levels(header.base.vertices, header.base.faces, level - 1);
+  return subdivision_levels(header.base.vertices, header.base.faces, level - 1, header.base.creases);
 }
 
 /// Everything that encoder and decoder derive from the header and the level that they go to.
@@ -202,7 +204,7 @@ struct Source {
     header.wavelet = options.wavelet;
     header.tangential_ratio = options.tangential_ratio;
     header.level = mesh.level;
-    header.base = encode_connectivity(mesh.base_faces, connectivity);
+    header.base = encode_connectivity(mesh.base_faces, connectivity, mesh.creases);
     return header;
   }
 };
@@ -229,10 +231,11 @@ Bytes displaced_stream(const SemiregularMesh& mesh, const EncodeOptions& options
   const double diagonal = std::max(bounding_box_diagonal(mesh.mesh()), mesh.control->grid);
   int precision = kPassesPerPlane * options.precision_bits;
   if (options.precision_bits == EncodeOptions::kAutoPrecision)
-    precision = mesh.level == 0 ? kFlatPrecision
-                                : sufficient_precision(
-                                      subdivision_levels(mesh.base_vertices, mesh.base_faces, mesh.level - 1).back(),
-                                      mesh.positions, diagonal);
+    precision = mesh.level == 0
+                    ? kFlatPrecision
+                    : sufficient_precision(
+                          subdivision_levels(mesh.base_vertices, mesh.base_faces, mesh.level - 1, mesh.creases).back(),
+                          mesh.positions, diagonal);
   return encode_displaced(mesh, options.wavelet, diagonal, precision, progress, parts);
 }
 
@@ -321,6 +324,7 @@ SemiregularMesh decode(const Bytes& stream, std::size_t budget) {
       decode_bitplanes(structure.forest, structure.layout(header), begin + needed, begin + end);
   mesh.base_vertices = header.base.vertices;
   mesh.base_faces = header.base.faces;
+  mesh.creases = header.base.creases;
   mesh.positions = structure.reconstruct(known, mesh.level, header, [](const std::vector<Vec3>&) {});
   return mesh;
 }

@@ -45,6 +45,7 @@ EdgeForest::EdgeForest(const std::vector<SubdivisionLevel>& levels) {
     for (int e = 0; e < levels[l].edge_count(); ++e) {
       const int node = static_cast<int>(parent.size());
       parent.push_back(l == 0 ? kNone : level_begin[l - 1] + parent_edge(levels[l - 1], levels[l], e));
+      creased.push_back(levels[l].creased[e]);
       neighbours.push_back(other_sides(levels[l], e, level_begin[l]));
       if (l > 0) *std::find(children[parent.back()].begin(), children[parent.back()].end(), kNone) = node;
     }

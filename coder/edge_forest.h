@@ -18,10 +18,13 @@ struct EdgeForest {
   std::vector<std::array<int, 4>> children;    ///< #N, kNone after the last, and at the finest level
   std::vector<std::array<int, 4>> neighbours;  ///< #N, the other sides of the edge's triangles, kNone on a boundary
 
+  std::vector<char> creased;  ///< #N, whether the edge is a crease or a part of one
+
   /// `levels`: those whose edges carry details.
   explicit EdgeForest(const std::vector<SubdivisionLevel>& levels);
 
-  bool on_boundary(int node) const { return neighbours[node][2] == kNone; }
+  /// On a boundary or crease, whose points have three components in every kind of stream.
+  bool on_curve(int node) const { return neighbours[node][2] == kNone || creased[node]; }
   int levels() const { return static_cast<int>(level_begin.size()) - 1; }
   int nodes() const { return static_cast<int>(parent.size()); }
 };

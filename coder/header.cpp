@@ -15,7 +15,9 @@ namespace {
 
 constexpr std::array<std::uint8_t, 3> kMagic = {'P', 'G', 'C'};
 constexpr std::size_t kChecksumBegin = kMagic.size() + 1, kChecksumEnd = kChecksumBegin + 4;
-constexpr std::uint8_t kOldestVersion = 6;
+constexpr std::uint8_t kOldestVersion = 6, kCreaseVersion = 8;
+/// In the byte of the wavelet: creases follow the base's faces.
+constexpr int kCreased = 8;
 /// Sums of it and a control point's steps are exact in double precision, multiplied by a grid of 3 bits too.
 constexpr std::int64_t kMostControlOrigin = std::int64_t{1} << 41;
 
@@ -90,7 +92,7 @@ std::uint64_t size_of_rest(Parser& parser) {
     if (parser.byte() != expected) refuse("it does not start with 'PGC'");
   const int version = parser.byte();
   if (version < kOldestVersion || version > kStreamVersion)
-    refuse("its version is " + std::to_string(version) + ", not " + std::to_string(kOldestVersion) + " or " +
+    refuse("its version is " + std::to_string(version) + ", not " + std::to_string(kOldestVersion) + " to " +
            std::to_string(kStreamVersion));
   for (int b = 0; b < 4; ++b) parser.byte();
   const std::uint64_t size = parser.varint();
@@ -132,7 +134,8 @@ Bytes write_header(const StreamHeader& header, const Bytes& connectivity) {
   Bytes rest;
   int ratio_exponent = 0;
   while (1 << ratio_exponent < header.tangential_ratio) ++ratio_exponent;
-  rest.push_back(static_cast<std::uint8_t>(static_cast<int>(header.wavelet) | ratio_exponent << 4 |
+  rest.push_back(static_cast<std::uint8_t>(static_cast<int>(header.wavelet) |
+                                           (header.base.creases.empty() ? 0 : kCreased) | ratio_exponent << 4 |
                                            static_cast<int>(header.kind) << 6));
   rest.push_back(static_cast<std::uint8_t>(header.level));
   rest.push_back(static_cast<std::uint8_t>(header.base_planes));
@@ -179,8 +182,10 @@ StreamHeader read_header(const std::uint8_t* begin, const std::uint8_t* end) {
   size_of_rest(parser);
   StreamHeader header;
   const int transform = parser.byte();
-  if ((transform & 15) >= static_cast<int>(std::size(kWavelets))) refuse("its wavelet is unknown");
-  header.wavelet = static_cast<Wavelet>(transform & 15);
+  const bool creased = begin[kMagic.size()] >= kCreaseVersion && (transform & kCreased) != 0;
+  const int wavelet = (transform & 15) - (creased ? kCreased : 0);
+  if (wavelet >= static_cast<int>(std::size(kWavelets))) refuse("its wavelet is unknown");
+  header.wavelet = static_cast<Wavelet>(wavelet);
   header.tangential_ratio = 1 << (transform >> 4 & 3);
   if (transform >> 6 >= kStreamKinds) refuse("its kind is unknown");
   header.kind = static_cast<StreamKind>(transform >> 6);
@@ -194,7 +199,7 @@ StreamHeader read_header(const std::uint8_t* begin, const std::uint8_t* end) {
   for (std::int64_t& o : header.origin) o = parser.signed_within(std::int64_t{1} << 58);
   std::span<const std::uint8_t> control;
   if (header.kind == StreamKind::Displaced) control = control_bytes(parser, header);
-  header.base = decode_connectivity(static_cast<int>(faces), parser.next(), end);
+  header.base = decode_connectivity(static_cast<int>(faces), creased, parser.next(), end);
   if (header.kind == StreamKind::Displaced)
     header.control = decode_control(header.base, header.base_planes, control.data(), control.data() + control.size());
   return header;

@@ -14,19 +14,20 @@ namespace gsp {
 /// How many numbers of a vertex above the base a stream holds. Values, at most 3, are those on disk.
 enum class StreamKind : std::uint8_t {
   Parametric = 0,  ///< three
-  Normal = 1,      ///< one, along the normal of its edge's frame; three on the boundary
+  Normal = 1,      ///< one, along the normal of its edge's frame; three on boundaries and creases
   Displaced = 2,   ///< one, along the normals of a control mesh's surface; two on the boundary
 };
 inline constexpr int kStreamKinds = 3;
 
-/// The version that is written. Those of the one before, all parametric, are read in the same way.
-inline constexpr std::uint8_t kStreamVersion = 7;
+/// The version that is written. Those of 7, which have no creases, and of 6, all parametric, are read in the same way.
+inline constexpr std::uint8_t kStreamVersion = 8;
 
 /// Everything that a decoder needs before the first bit-plane. On disk (`*.pgc`):
 ///
 ///     "PGC"  version  CRC-32 of version and rest (little endian)  varint size of the rest
-///     rest: wavelet | log2(tangential ratio) << 4 | kind << 6, level, base planes, detail planes (one byte each);
-///           varints: base faces, zigzag step exponent, zigzag origin x, y, z; base connectivity
+///     rest: wavelet | creases << 3 | log2(tangential ratio) << 4 | kind << 6, level, base planes, detail planes (one
+///     byte each);
+///           varints: base faces, zigzag step exponent, zigzag origin x, y, z; base connectivity, then creases
 ///     of kind displaced, before the base connectivity: varints zigzag 4 exponent + mantissa - 4 of the control points'
 ///           grid, bytes of the control points; these
 ///

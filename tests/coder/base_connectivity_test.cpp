@@ -13,7 +13,7 @@ using namespace gsp;
 namespace {
 
 CodedBase decoded(const Bytes& bytes, std::size_t faces) {
-  return decode_connectivity(static_cast<int>(faces), bytes.data(), bytes.data() + bytes.size());
+  return decode_connectivity(static_cast<int>(faces), false, bytes.data(), bytes.data() + bytes.size());
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ inline Bytes read(const std::string& path) {
   return Bytes(std::istreambuf_iterator<char>(in), {});
 }
 
-/// FNV-1a over the bits of all coordinates and the base faces: two hashes agree where the decoded meshes do, bit for
-/// bit.
+/// FNV-1a over the bits of all coordinates, the base faces and creases: two hashes agree where the decoded meshes do,
+/// bit for bit.
 inline std::uint64_t hash(const SemiregularMesh& mesh) {
   std::uint64_t sum = 0xcbf29ce484222325u;
   const auto add = [&](std::uint64_t word) {
@@ -26,6 +26,10 @@ inline std::uint64_t hash(const SemiregularMesh& mesh) {
   add(mesh.level);
   for (const Triangle& t : mesh.base_faces)
     for (int v : t) add(v);
+  for (const auto& [a, b] : mesh.creases) {
+    add(a);
+    add(b);
+  }
   for (const Vec3& p : mesh.positions)
     for (int k = 0; k < 3; ++k) add(std::bit_cast<std::uint64_t>(p[k]));
   return sum;
