@@ -126,6 +126,14 @@ ChartSamples::Sample ChartSamples::nearest_around(int i, int j) const {
   return best;
 }
 
+void ChartSamples::put_on_crease(int k) {
+  for (int s = 0; s <= n_; ++s) {
+    const auto [i, j] = along_side(n_, k, s);
+    SurfacePoint& point = samples_[lattice_index(n_, i, j)].point;
+    if (point.face >= 0) point = on_crease(point);
+  }
+}
+
 void ChartSamples::fill_gaps() {
   std::vector<std::array<int, 2>> gaps;
   for (int j = 0; j <= n_; ++j)

@@ -16,7 +16,7 @@ ClosestEnergy::ClosestEnergy(const SubdivisionLevel& finest, std::vector<Surface
       inner_(start.size(), 1),
       squared_(samples.size(), 0.0) {
   for (int e = 0; e < finest.edge_count(); ++e)
-    if (finest.edge_faces[e][1] < 0)
+    if (finest.sharp(e))
       for (int v : finest.edges[e]) inner_[v] = 0;
 }
 

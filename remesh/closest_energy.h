@@ -20,7 +20,7 @@ struct SurfaceSample {
 struct Springs {
   double stiffness;              ///< between the moves of an edge's ends
   double tether = 1e-4;          ///< to where each vertex was: moves along a plane, which no sample minds, stay zero
-  double boundary_tether = 0.0;  ///< the same, on top, of vertices on the boundary
+  double boundary_tether = 0.0;  ///< the same, on top, of vertices on boundaries and creases
 };
 
 /// The sum of the squared distances of samples to the nearest places of a level's surface, and of springs between the
@@ -31,7 +31,7 @@ class ClosestEnergy {
   ClosestEnergy(const SubdivisionLevel& finest, std::vector<SurfaceSample>& samples, const Springs& springs,
                 const std::vector<Vec3>& start);
 
-  /// #V, those that are not on the boundary.
+  /// #V, those that are not on a boundary or crease.
   const std::vector<char>& inner() const { return inner_; }
   /// With the vertices at `positions`, #V. Also moves the samples to their nearest places there, on all threads.
   double at(const std::vector<Vec3>& positions);

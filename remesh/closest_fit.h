@@ -21,9 +21,9 @@ struct FitEffort {
 /// moves from `start`, #V, of their ends: moves that are alike cost nothing, each on its own costs bytes in a code.
 ///
 /// Rounds of Gauss-Newton steps (iterated closest points, each to the plane of its nearest face), each taken only where
-/// it lowers the whole energy, so the distance never ends above that of `start`. Vertices on the boundary stay, and
-/// what `guard` holds. A rigid motion or scaling of all moves the result, up to rounding. The same bits on any number
-/// of threads, which share the search for nearest places. O(V + samples).
+/// it lowers the whole energy, so the distance never ends above that of `start`. Vertices on boundaries and creases
+/// stay, and what `guard` holds. A rigid motion or scaling of all moves the result, up to rounding. The same bits on
+/// any number of threads, which share the search for nearest places. O(V + samples).
 std::vector<Vec3> fit_closest(const SubdivisionLevel& finest, const FoldGuard& guard,
                               std::vector<SurfaceSample> samples, const FitEffort& effort,
                               const std::vector<Vec3>& start);

@@ -49,13 +49,6 @@ ElementProducts edge_products(int steps) {
   return sum;
 }
 
-/// Lattice point s steps along side k of a face.
-std::array<int, 2> along_side(int steps, int k, int s) {
-  if (k == 0) return {s, 0};
-  if (k == 1) return {steps - s, s};
-  return {0, steps - s};
-}
-
 /// A sum of squares over elements: gradient zero where, for every vertex, matrix times positions is the moment.
 class LeastSquares {
  public:
@@ -136,6 +129,13 @@ class LeastSquares {
   std::vector<Coupling> couplings_;
 };
 
+/// #V, whether a crease ends at a vertex or meets others.
+std::vector<char> crease_ends(const SubdivisionLevel& level) {
+  std::vector<char> ends;
+  for (const VertexFan& fan : vertex_fans(level)) ends.push_back(fan.crease_count > 0 && !fan.on_curve());
+  return ends;
+}
+
 }  // namespace
 
 PositionFit::PositionFit(const SubdivisionLevel& finest, int steps)
@@ -145,11 +145,11 @@ PositionFit::PositionFit(const SubdivisionLevel& finest, int steps)
       face_moments_(finest.faces.size()),
       place_(finest.edges.size(), -1) {
   for (int e = 0; e < finest.edge_count(); ++e) {
-    if (finest.edge_faces[e][1] >= 0) continue;
-    place_[e] = static_cast<int>(boundary_edges_.size());
-    boundary_edges_.push_back(e);
+    if (!finest.sharp(e)) continue;
+    place_[e] = static_cast<int>(sharp_edges_.size());
+    sharp_edges_.push_back(e);
   }
-  edge_moments_.resize(boundary_edges_.size());
+  edge_moments_.resize(sharp_edges_.size());
 }
 
 void PositionFit::add_face(int face, const std::vector<Vec3>& points) {
@@ -173,8 +173,9 @@ void PositionFit::add_face(int face, const std::vector<Vec3>& points) {
     }
   doubled_areas_[face] = area;
   for (int k = 0; k < 3; ++k) {
-    const int place = place_[finest_.face_edges[face][k]];
-    if (place < 0) continue;
+    const int edge = finest_.face_edges[face][k], place = place_[edge];
+    // Of a crease both faces have the same points.
+    if (place < 0 || finest_.edge_faces[edge][0] != face) continue;
     edge_moments_[place] = {Vec3::Zero(), Vec3::Zero()};
     for (int s = 0; s <= steps_; ++s) {
       const auto [i, j] = along_side(steps_, k, s);
@@ -186,27 +187,27 @@ void PositionFit::add_face(int face, const std::vector<Vec3>& points) {
 }
 
 std::vector<Vec3> PositionFit::fit(const std::vector<Vec3>& sampled) const {
-  std::vector<char> on_boundary(sampled.size(), 0);
+  std::vector<char> on_curve(sampled.size(), 0);
   LeastSquares curves(sampled.size()), surface(sampled.size());
   const ElementProducts along = edge_products(steps_), within = face_products(steps_);
-  for (std::size_t i = 0; i < boundary_edges_.size(); ++i) {
-    const std::array<int, 2>& ends = finest_.edges[boundary_edges_[i]];
+  for (std::size_t i = 0; i < sharp_edges_.size(); ++i) {
+    const std::array<int, 2>& ends = finest_.edges[sharp_edges_[i]];
     curves.add(ends, along, edge_moments_[i]);
-    for (int v : ends) on_boundary[v] = 1;
+    for (int v : ends) on_curve[v] = 1;
   }
   for (int f = 0; f < finest_.face_count(); ++f) surface.add(finest_.faces[f], within, face_moments_[f]);
 
   std::vector<Vec3> positions = sampled;
-  std::vector<char> held(sampled.size(), 0), free(sampled.size());
+  std::vector<char> held = crease_ends(finest_), free(sampled.size());
   const FoldGuard guard(finest_, doubled_areas_);
   // Each round but the last holds a vertex more, and a face whose corners all are held is that of the samples.
   do {
     for (std::size_t v = 0; v < held.size(); ++v) {
       if (held[v]) positions[v] = sampled[v];
-      free[v] = on_boundary[v] && !held[v];
+      free[v] = on_curve[v] && !held[v];
     }
     curves.solve(free, positions);
-    for (std::size_t v = 0; v < held.size(); ++v) free[v] = !on_boundary[v] && !held[v];
+    for (std::size_t v = 0; v < held.size(); ++v) free[v] = !on_curve[v] && !held[v];
     surface.solve(free, positions);
   } while (guard.hold(sampled, positions, held));
   return positions;

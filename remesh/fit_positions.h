@@ -12,9 +12,10 @@ namespace gsp {
 /// functions. A surface that bends alike in all directions comes out four times nearer than where its points are taken
 /// as vertices, a saddle no nearer.
 ///
-/// Positions minimise, over the boundary's vertices, the integral along the boundary curves; then, over all others,
-/// that over the faces with the boundary held. So boundary curves are those of the boundary alone, and shared by
-/// whatever lies beside them. Integrals are over the domain: each face of the level counts the same.
+/// Positions minimise, over the vertices of boundaries and creases, the integral along these curves; then, over all
+/// others, that over the faces with the curves held. So curves are those of their own points alone, and shared by
+/// whatever lies beside them. Corners and ends of creases stay samples. Integrals are over the domain: each face of the
+/// level counts the same.
 ///
 /// Where the surface turns within a face or two the nearest faces may fold. Of faces that so would turn or fold, and do
 /// not with their samples (fold_guard.h), the corners stay samples, and the others are fitted to that.
@@ -39,9 +40,9 @@ class PositionFit {
   int steps_;
   std::vector<Vec3> doubled_areas_;
   std::vector<std::array<Vec3, 3>> face_moments_;  ///< #F, by corner
-  std::vector<int> boundary_edges_;
-  std::vector<int> place_;                         ///< #E, of an edge among the boundary's, -1 inside
-  std::vector<std::array<Vec3, 2>> edge_moments_;  ///< of boundary edges, by end in the direction of their face
+  std::vector<int> sharp_edges_;
+  std::vector<int> place_;                         ///< #E, of an edge among the sharp ones, -1 for others
+  std::vector<std::array<Vec3, 2>> edge_moments_;  ///< of sharp edges, by end in the direction of their face
 };
 
 }  // namespace gsp

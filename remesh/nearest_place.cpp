@@ -48,7 +48,7 @@ class Walk {
     if (w[corner] < 1.0) {
       const int k = w[2] == 0.0 ? 0 : w[0] == 0.0 ? 1 : 2;
       Nearest best = from;
-      visit(level_.other_face(level_.face_edges[face][k], face), best);
+      visit(level_.smooth_face(level_.face_edges[face][k], face), best);
       return best;
     }
     return around_vertex(from, level_.faces[face][corner]);
@@ -80,11 +80,11 @@ class Walk {
     const int start = from.place.face;
     const std::array<int, 3>& sides = level_.face_edges[start];
     const int opposite = level_.faces[start][0] == vertex ? 1 : level_.faces[start][1] == vertex ? 2 : 0;
-    // One way round and, where a boundary ends that, the other.
+    // One way round and, where a sharp edge ends that, the other.
     for (int way = 1; way <= 2; ++way) {
       int face = start, edge = sides[(opposite + way) % 3];
       do {
-        face = level_.other_face(edge, face);
+        face = level_.smooth_face(edge, face);
         visit(face, best);
         if (face >= 0) edge = level_.other_side(face, edge, vertex);
       } while (face >= 0 && face != start);

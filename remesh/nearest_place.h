@@ -21,9 +21,9 @@ struct LevelPlace {
 };
 
 /// Walks from `place` to neighbouring faces as long as one is nearer to `point`, over the surface and never across to
-/// another sheet; returns the squared distance. Where the surface bends less than the distance to it that place is the
-/// nearest one. At an edge the face across is tried, at a vertex all around it, from the start on: where a place
-/// between faces ends does not depend on which of them it is given in. A face without area acts as its edges.
+/// another sheet or a crease; returns the squared distance. Where the surface bends less than the distance to it that
+/// place is the nearest one. At an edge the face across is tried, at a vertex all around it, from the start on: where a
+/// place between faces ends does not depend on which of them it is given in. A face without area acts as its edges.
 double walk_to_nearest(const SubdivisionLevel& level, const std::vector<Vec3>& positions, const Vec3& point,
                        LevelPlace& place);
 

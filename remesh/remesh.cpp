@@ -86,8 +86,14 @@ NormalRemesh normal(const Parameterization& map, const std::vector<std::vector<F
   };
   progress.note(count(VertexForm::Normal) + " of " + std::to_string(made.forms.size()) +
                 " vertices above the base are normal; " + count(VertexForm::Parametric) +
-                " are where the map has them, " + count(VertexForm::Boundary) + " on the boundary");
+                " are where the map has them, " + count(VertexForm::Boundary) + " on boundaries and creases");
   return made;
+}
+
+SemiregularMesh semiregular(const Parameterization& map, int level, std::vector<Vec3> positions) {
+  SemiregularMesh mesh{level, map.base.vertex_count(), map.base.faces, std::move(positions)};
+  mesh.creases = map.base.creases;
+  return mesh;
 }
 
 /// Remeshing in progress: the finest connectivity, the positions, and what the charts found on their borders.
@@ -98,7 +104,8 @@ class Remesher {
         level_(level),
         n_(1 << level),
         steps_(positions == Positions::Sampled ? 1 : fit_steps(map, level)),
-        finest_(subdivision_levels(map.base.vertex_count(), map.base.faces, level).back()),
+        finest_(subdivision_levels(map.base.vertex_count(), map.base.faces, level, map.base.creases).back()),
+        creased_(map.base.crease_halfedges()),
         borders_(map.base.twins.size()),
         gaps_(map.base.faces.size(), 0) {
     if (positions != Positions::Sampled) {
@@ -112,6 +119,8 @@ class Remesher {
   void sample_chart(int chart, const std::vector<FacePiece>& pieces) {
     ChartSamples samples(map_, pieces, n_ * steps_);
     samples.fill_gaps();
+    for (int k = 0; k < 3; ++k)
+      if (creased_[3 * chart + k]) samples.put_on_crease(k);
     const auto sample = [&](int i, int j) { return samples.at(steps_ * i, steps_ * j); };
     const std::vector<int> vertices = chart_vertices(chart);
     const auto vertex = [&](int i, int j) { return vertices[lattice_index(n_, i, j)]; };
@@ -154,7 +163,7 @@ class Remesher {
     positions_ = fit_closest(finest_, guard, std::move(samples), effort, fit_->fit(positions_));
   }
 
-  SemiregularMesh take() { return {level_, map_.base.vertex_count(), map_.base.faces, std::move(positions_)}; }
+  SemiregularMesh take() { return semiregular(map_, level_, std::move(positions_)); }
 
  private:
   /// The position of a sample. Throws where the chart has none.
@@ -208,6 +217,7 @@ class Remesher {
   int level_, n_;
   int steps_;  ///< samples between neighbouring vertices, for the fit
   SubdivisionLevel finest_;
+  std::vector<char> creased_;  ///< by half-edge of the base
   std::optional<PositionFit> fit_;
   std::vector<std::vector<SurfaceSample>> surface_samples_;  ///< by chart, for a fit
   std::vector<Vec3> positions_;
@@ -233,6 +243,9 @@ SemiregularMesh fit_target(const Parameterization& map, int level, Progress& pro
 }
 
 SemiregularMesh displaced(const Parameterization& map, int level, Positions positions, Progress& progress) {
+  if (!map.base.creases.empty())
+    progress.note("a displaced mesh has no creases: its " + std::to_string(map.base.creases.size()) +
+                  " base edges on feature curves are smooth ones");
   DisplacedOptions options;
   options.positions = positions;
   return displaced_remesh(fit_target(map, level, progress), level, options, progress);
@@ -243,7 +256,7 @@ std::vector<Vec3> fitted(const Parameterization& map, const std::vector<Subdivis
                          const RemeshOptions& options, const NormalRemesh& normal, Progress& progress) {
   const int level = static_cast<int>(levels.size()) - 1;
   const SemiregularMesh surface = fit_target(map, level, progress);
-  const SubdivisionLevel finest = subdivision_levels(surface.base_vertices, surface.base_faces, surface.level).back();
+  const SubdivisionLevel finest = surface.levels().back();
   FitEffort effort = effort_of(options.positions);
   if (options.positions == Positions::Sampled) effort.most_rounds = 0;
   std::vector<char> exceptional;
@@ -269,12 +282,12 @@ SemiregularMesh remesh(const Parameterization& map, const RemeshOptions& options
   const std::vector<std::vector<FacePiece>> pieces = pieces_by_chart(map);
   progress.report("remesh", 0.3);
   if (options.kind == RemeshKind::Normal || options.kind == RemeshKind::VariationalNormal) {
-    const auto levels = subdivision_levels(map.base.vertex_count(), map.base.faces, level);
+    const auto levels = subdivision_levels(map.base.vertex_count(), map.base.faces, level, map.base.creases);
     NormalRemesh made = normal(map, pieces, levels, options, progress);
     if (options.kind == RemeshKind::VariationalNormal || options.positions != Positions::Sampled)
       made.positions = fitted(map, levels, options, made, progress);
     progress.report("remesh", 1.0);
-    return {level, map.base.vertex_count(), map.base.faces, std::move(made.positions)};
+    return semiregular(map, level, std::move(made.positions));
   }
   Remesher remesher(map, level, options.positions);
   parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {

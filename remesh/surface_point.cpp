@@ -7,16 +7,26 @@ namespace {
 /// A weight this small is a point on an edge or a corner, whose position then is exact.
 constexpr double kOnBorder = 1e-13;
 
-}  // namespace
-
-std::array<double, 3> snapped_weights(std::array<double, 3> w) {
+std::array<double, 3> snapped(std::array<double, 3> w, double least) {
   double sum = 0.0;
   for (double& x : w) {
-    if (!(x > kOnBorder)) x = 0.0;
+    if (!(x > least)) x = 0.0;
     sum += x;
   }
   for (double& x : w) x /= sum;
   return w;
+}
+
+}  // namespace
+
+std::array<double, 3> snapped_weights(std::array<double, 3> w) { return snapped(w, kOnBorder); }
+
+SurfacePoint on_crease(SurfacePoint point) {
+  // Rounding of charts moves a point off an edge by 1e-16 of them, and so by less than this of the height of any face
+  // that is not smaller than 1e-8 of its chart.
+  constexpr double kOffCrease = 1e-8;
+  point.weights = snapped(point.weights, kOffCrease);
+  return point;
 }
 
 Vec3 position_at(const Mesh& surface, const SurfacePoint& point) {

@@ -26,6 +26,9 @@ struct SurfacePoint {
 /// Weights brought into the triangle, those on its border exactly.
 std::array<double, 3> snapped_weights(std::array<double, 3> weights);
 
+/// Of a point that is known to lie on a crease, along edges of the surface: on an edge or a corner of its face exactly.
+SurfacePoint on_crease(SurfacePoint point);
+
 /// Where that is; exact on vertices.
 Vec3 position_at(const Mesh& surface, const SurfacePoint& point);
 

@@ -40,7 +40,7 @@ class Insertion {
         const int e = static_cast<int>(i);
         const auto [a, b] = ends(e);
         middles_[e] = 0.5 * (a + b);
-        if (boundary(e)) continue;
+        if (on_curve(e)) continue;
         lines_[e] = {predicted[level_.vertex_count + e], frames(e).col(0)};
         hits_[e] = nearest_hit(index, domain, reach_, e, lines_[e], middles_[e],
                                options.aperture * std::min(std::abs(b - a), 0.1));
@@ -75,7 +75,7 @@ class Insertion {
         const Hit hit = hits_[e] ? *hits_[e] : surface_hit(index_, domain_, reach_, e, middles_[e]);
         positions[before + i] = hit.position;
         places[i] = hit.place;
-        if (hits_[e] || boundary(e) || tolerance_ == 0.0) continue;
+        if (hits_[e] || on_curve(e) || tolerance_ == 0.0) continue;
         const Vec3 nearest = lines_[e].nearest(hit.position);
         if ((nearest - hit.position).norm() > tolerance_) continue;
         positions[before + i] = nearest;
@@ -83,11 +83,11 @@ class Insertion {
       }
     });
     for (int e = 0; e < level_.edge_count(); ++e)
-      forms.push_back(hits_[e] ? VertexForm::Normal : boundary(e) ? VertexForm::Boundary : VertexForm::Parametric);
+      forms.push_back(hits_[e] ? VertexForm::Normal : on_curve(e) ? VertexForm::Boundary : VertexForm::Parametric);
   }
 
  private:
-  bool boundary(int edge) const { return level_.edge_faces[edge][1] < 0; }
+  bool on_curve(int edge) const { return level_.sharp(edge); }
 
   /// In the chart of the edge's first face.
   std::array<Complex, 2> ends(int edge) const {
@@ -132,7 +132,7 @@ class Insertion {
   const FaceReach reach_;
   std::vector<Complex> middles_;          ///< #E, in the chart of the edge's first face
   std::vector<std::optional<Hit>> hits_;  ///< #E
-  std::vector<Line> lines_;               ///< #E, the normals, but on the boundary
+  std::vector<Line> lines_;               ///< #E, the normals, but on curves
   double tolerance_;
 };
 

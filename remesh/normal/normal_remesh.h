@@ -14,7 +14,7 @@ namespace gsp {
 enum class VertexForm : std::uint8_t {
   Normal,      ///< on the normal through its prediction
   Parametric,  ///< where the map has it: an exception, with three components
-  Boundary,    ///< the same, on the boundary, whose curves have no normals of their own
+  Boundary,    ///< the same, on a boundary or crease, whose curves have no normals of their own
 };
 
 struct NormalOptions {

@@ -118,7 +118,9 @@ Hit surface_hit(const ChartIndex& index, const RemeshDomain& domain, const FaceR
     most = least;
   }
   const DomainVertex vertex = {domain.home(edge), domain.side(edge), place, best->chart, best->motion};
-  return {vertex, position_at(index.map().surface, index.at(best->chart, vertex.in_chart()))};
+  const SurfacePoint found = index.at(best->chart, vertex.in_chart());
+  const bool creased = domain.connectivity().creased[edge] != 0;
+  return {vertex, position_at(index.map().surface, creased ? on_crease(found) : found)};
 }
 
 }  // namespace gsp

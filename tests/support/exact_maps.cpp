@@ -1,6 +1,7 @@
 #include "tests/support/exact_maps.h"
 
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "mesh/halfedges.h"
@@ -90,7 +91,16 @@ Parameterization quadrisected(const Mesh& base, int level) {
   return map;
 }
 
-void jitter(Parameterization& map, double amount, int level, std::uint64_t seed) {
+namespace {
+
+/// Of a vertex on a base edge, the side of its patch that this is.
+std::optional<int> base_side(const Parameterization& map, int v) {
+  for (int e = 0; e < 3; ++e)
+    if (std::abs(chart_barycentric(map.position[v])[(e + 2) % 3]) < 1e-12) return e;
+  return std::nullopt;
+}
+
+void shift_vertices(Parameterization& map, double amount, int level, std::uint64_t seed, bool along_edges) {
   const Halfedges halfedges(map.surface);
   std::vector<char> fixed(map.surface.positions.size(), 0);
   for (int v : map.base.vertices) fixed[v] = 1;
@@ -100,6 +110,8 @@ void jitter(Parameterization& map, double amount, int level, std::uint64_t seed)
   for (int v = 0; v < map.surface.vertex_count(); ++v) {
     const double x = 2.0 * random.uniform() - 1.0, y = 2.0 * random.uniform() - 1.0;
     if (!fixed[v] && map.patch[v] >= 0 && !halfedges.boundary_vertex(v)) shift[v] = reach * Complex(x, y);
+    if (const auto side = base_side(map, v); along_edges && side && !fixed[v])
+      shift[v] = reach * x * (kChartCorners[(*side + 1) % 3].value() - kChartCorners[*side].value());
   }
   for (int f = 0; f < map.surface.face_count(); ++f)
     for (int k = 0; k < 3; ++k) {
@@ -119,6 +131,16 @@ void jitter(Parameterization& map, double amount, int level, std::uint64_t seed)
     map.position[v] += shift[v];
     if (shift[v] != Complex()) settle(map, v);
   }
+}
+
+}  // namespace
+
+void jitter(Parameterization& map, double amount, int level, std::uint64_t seed) {
+  shift_vertices(map, amount, level, seed, false);
+}
+
+void jitter_along_edges(Parameterization& map, double amount, int level, std::uint64_t seed) {
+  shift_vertices(map, amount, level, seed, true);
 }
 
 void rechart(Parameterization& map, std::uint64_t seed) {

@@ -16,6 +16,9 @@ Parameterization quadrisected(const Mesh& base, int level);
 /// on base edges move across them, so faces then reach into neighbouring charts.
 void jitter(Parameterization& map, double amount, int level, std::uint64_t seed);
 
+/// The same for a map whose base edges are creases: vertices on base edges move along them. `map` is `quadrisected`.
+void jitter_along_edges(Parameterization& map, double amount, int level, std::uint64_t seed);
+
 /// Gives about half of the faces in the chart of a neighbour of their base face instead: the same map, written
 /// otherwise.
 void rechart(Parameterization& map, std::uint64_t seed);
