@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <string>
+
+#include "mesh/features/features.h"
 
 namespace gsp {
 
@@ -73,12 +76,19 @@ BaseEdges base_edges_of(const std::string& word);
 /// (experiments/base/base_by_rate.h).
 inline constexpr int kBaseByOmega = 0, kBaseByRate = -1;
 
+/// Ways to find feature curves that are no angle: none, and those of `detect_features`.
+inline constexpr int kNoFeatures = 0, kAutoFeatures = -1;
+
 struct ParameterizeOptions {
   Method method = Method::Gsp;
   Objective objective = Objective::Distortion;
   Weights weights = Weights::MeanValue;
   Corners corners = Corners::Relax;
   BaseEdges base_edges = BaseEdges::Flip;
+  /// Curves of sharp edges that become chains of base edges, for Method::Gsp alone: found by `detect_features`, none,
+  /// or all edges at or over a dihedral angle in 1 to 179 degrees.
+  int feature_degrees = kNoFeatures;
+  std::optional<FeatureEdges> features = {};  ///< these instead; interior edges of the surface
   /// Base vertices to stop at, at least 4, or `kBaseByOmega`. The simplification stops earlier, with a note, where no
   /// vertex can be removed any more.
   int base_vertices = kBaseByOmega;

@@ -6,6 +6,7 @@
 #include <iomanip>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -15,6 +16,9 @@
 #include "param/baselines/maps.h"
 #include "param/baselines/maps_smoothing.h"
 #include "param/baselines/relax_patch_pairs.h"
+#include "param/creases/cut_surface.h"
+#include "param/creases/glue_map.h"
+#include "param/creases/settle_creases.h"
 #include "param/linear/weights.h"
 #include "param/shortening.h"
 #include "param/simplify/simplify.h"
@@ -41,18 +45,20 @@ void check_options(const ParameterizeOptions& options) {
   if (!(options.gamma >= 0.0) || !(options.mu >= 0.0))
     throw Error(Cause::BadOption, "gamma and mu must not be negative");
   if (options.replicate < 0) throw Error(Cause::BadOption, "the number of the replicate must not be negative");
+  if (options.feature_degrees < kAutoFeatures || options.feature_degrees > 179)
+    throw Error(Cause::BadOption, "the angle of features must be 1 to 179 degrees, none or found by itself");
   if (options.relaxations < 0) throw Error(Cause::BadOption, "the number of relaxations must not be negative");
 }
 
 std::vector<std::string> provenance(const Mesh& input, const ParameterizeOptions& options, Method method,
-                                    const Atlas& atlas) {
+                                    const BaseComplex& base) {
   const auto line = [](const char* key, auto value) {
     std::ostringstream text;
     text << key << ' ' << std::setprecision(17) << value;
     return text.str();
   };
   std::vector<std::string> lines = {line("method", method_name(method)),
-                                    line("base_vertices", atlas.base.vertex_count()),
+                                    line("base_vertices", base.vertex_count()),
                                     line("base_vertices_asked", options.base_vertices),
                                     line("gamma", options.gamma),
                                     line("mu", options.mu),
@@ -63,6 +69,7 @@ std::vector<std::string> provenance(const Mesh& input, const ParameterizeOptions
                                     line("base_edges", base_edges_name(options.base_edges)),
                                     line("input_vertices", input.vertex_count()),
                                     line("input_faces", input.face_count())};
+  if (!base.creases.empty()) lines.push_back(line("creases", base.creases.size()));
   if (options.replicate > 0) lines.push_back(line("replicate", options.replicate));
   return lines;
 }
@@ -73,6 +80,8 @@ struct Start {
   std::optional<SmoothedMap> smooth;  ///< for Method::Gsp alone
   std::vector<int> base_vertices;     ///< of the surface, as the simplification behind `smooth` left them
   std::vector<OmegaRecord> omega;
+  std::optional<CutSurface> cut;  ///< what `smooth` is a map of, where the surface has features
+  ChosenFeatures features;
 };
 
 /// Copies what is told of a smooth map, and counts how its corners moved.
@@ -92,18 +101,23 @@ double patch_count(const Mesh& mesh, int base_vertices) {
   return 2.0 * std::max(base_vertices > 0 ? base_vertices : expected, 4.0);
 }
 
-/// The surface with edges short enough for the patches, and none that joins two boundaries.
-Mesh refined(Mesh mesh, const ParameterizeOptions& options, Progress& progress) {
+/// The surface with edges short enough for the patches, and none that joins two boundaries. `features` follow.
+Mesh refined(Mesh mesh, FeatureEdges& features, const ParameterizeOptions& options, Progress& progress) {
   const double faces = mesh.face_count();
-  const int added = split_boundary_chords(mesh);
-  if (added > 0) progress.note(std::to_string(added) + " interior edges between boundary vertices were split");
+  const int own = mesh.vertex_count();
+  const auto chords = split_boundary_chords(mesh);
+  if (!chords.empty())
+    progress.note(std::to_string(chords.size()) + " interior edges between boundary vertices were split");
+  features = split_features(features, chords, own);
   const double patches = patch_count(mesh, options.base_vertices), area = surface_area(mesh);
   const double wanted = kLongestEdge * std::sqrt(area / patches / kChartArea);
   const double most = std::min(kMostPerFace * faces, kMostPerPatch * patches);
   if (!(wanted > 0.0)) return mesh;  // no area
+  const int before = mesh.vertex_count();
   const LongEdgeSplit split = split_long_edges(mesh, wanted, static_cast<int>(most));
-  if (split.added > 0)
-    progress.note(std::to_string(split.added) + " vertices were added on edges that are long for the patches");
+  features = split_features(features, split.ends, before);
+  if (split.added() > 0)
+    progress.note(std::to_string(split.added()) + " vertices were added on edges that are long for the patches");
   if (split.longest > wanted) progress.note("edges of thin faces were left longer: patches will be long with them");
   return mesh;
 }
@@ -115,11 +129,17 @@ struct Levels {
   SimplifyResult simplified;
 };
 
+Levels make_levels(std::shared_ptr<const Surface> surface, const ParameterizeOptions& options, Progress& progress) {
+  const int coarsest = coarsest_level(*surface, options);
+  SimplifyResult simplified = simplify(surface, options, coarsest, progress);
+  return {std::move(surface), coarsest, std::move(simplified)};
+}
+
 /// The map without folds that `make` has of the first simplification. Where its levels cannot be joined the last one is
-/// made larger, at the end as large as the surface. Throws Error: InvalidMap where that fails as well.
-SmoothedMap join_levels(const Levels& first, const ParameterizeOptions& options,
-                        const std::function<std::optional<SmoothedMap>(const SimplifyResult&)>& make,
-                        Progress& progress) {
+/// made larger, at the end as large as the surface. Nothing where that fails as well.
+std::optional<SmoothedMap> join_levels(const Levels& first, const ParameterizeOptions& options,
+                                       const std::function<std::optional<SmoothedMap>(const SimplifyResult&)>& make,
+                                       Progress& progress) {
   const int whole = first.surface->mesh.vertex_count();
   int coarsest = first.coarsest;
   const auto joined = [&](const std::optional<SmoothedMap>& map) {
@@ -127,8 +147,7 @@ SmoothedMap join_levels(const Levels& first, const ParameterizeOptions& options,
   };
   std::optional<SmoothedMap> map = make(first.simplified);
   while (!joined(map)) {
-    if (coarsest >= whole)
-      throw Error(Cause::InvalidMap, "no map of the surface could be made: its levels cannot be joined");
+    if (coarsest >= whole) return std::nullopt;
     coarsest = std::min(whole, kLargerLevel * coarsest);
     progress.note("the levels of the map could not be joined; the last one starts with " + std::to_string(coarsest) +
                   " vertices instead");
@@ -136,42 +155,87 @@ SmoothedMap join_levels(const Levels& first, const ParameterizeOptions& options,
   }
   const int added = map->atlas.surface->mesh.vertex_count() - whole;
   if (added > 0) progress.note(std::to_string(added) + " vertices were added where the map needs more freedom");
-  return std::move(*map);
+  return map;
 }
 
-/// Simplifies the surface and makes what the methods start from: the baselines on the first simplification that has
-/// MAPS' map, whichever methods stand beside them.
-Start make_start(const Mesh& mesh, const std::vector<Method>& methods, const ParameterizeOptions& options,
-                 Progress& progress) {
-  const auto surface = std::make_shared<const Surface>(refined(mesh, options, progress));
-  const auto smooth_ones = std::count(methods.begin(), methods.end(), Method::Gsp);
-  const int coarsest = coarsest_level(*surface, options);
-  const Levels levels{surface, coarsest, simplify(surface, options, coarsest, progress)};
-  Start start;
-  start.omega = levels.simplified.omega;
-  if (const auto left = static_cast<int>(remaining_vertices(*surface, levels.simplified.removals).size());
-      options.base_vertices > 0 && left > options.base_vertices)
-    progress.note("no further vertex can be removed: the base has " + std::to_string(left) + " vertices instead of " +
-                  std::to_string(options.base_vertices));
-  if (smooth_ones < static_cast<int>(methods.size())) {
-    const auto make = [](const SimplifyResult& simplified) -> std::optional<SmoothedMap> {
-      const std::optional<OverlayMap> maps = maps_overlay(simplified);
-      if (!maps) return std::nullopt;
-      return SmoothedMap{maps->coarsened().atlas, {}};
-    };
-    start.maps = join_levels(levels, options, make, progress).atlas;
-  }
-  if (smooth_ones == 0) return start;
+[[noreturn]] void refuse_levels() {
+  throw Error(Cause::InvalidMap, "no map of the surface could be made: its levels cannot be joined");
+}
+
+/// What the smooth map starts from on one surface, cut open or whole. False where none could be made.
+bool make_smooth(const Levels& levels, const ParameterizeOptions& options, Start& start, Progress& progress) {
   ParameterizeOptions smoothing = options;
   if (options.objective == Objective::Linear) {  // it relaxes the corners of its own solution
     smoothing.relaxations = 0;
     smoothing.base_edges = BaseEdges::Keep;
   }
   const auto make = [&](const SimplifyResult& simplified) {
-    start.base_vertices = remaining_vertices(*surface, simplified.removals);
+    start.base_vertices = remaining_vertices(*levels.surface, simplified.removals);
     return smooth_levels(simplified, smoothing, progress);
   };
   start.smooth = join_levels(levels, options, make, progress);
+  start.omega = levels.simplified.omega;
+  return start.smooth.has_value();
+}
+
+void note_base(const Levels& levels, const ParameterizeOptions& options, Progress& progress) {
+  const Surface& surface = *levels.surface;
+  const int left = surface.seams.count_whole(remaining_vertices(surface, levels.simplified.removals));
+  if (options.base_vertices > 0 && left > options.base_vertices)
+    progress.note("no further vertex can be removed: the base has " + std::to_string(left) + " vertices instead of " +
+                  std::to_string(options.base_vertices));
+}
+
+void note_features(const ChosenFeatures& features, Progress& progress) {
+  std::string note = std::to_string(features.curves) + " feature curves become base edges";
+  if (features.given_way > 0)
+    note += "; " + std::to_string(features.given_way) + " others, for which the base has no room, give way";
+  if (features.curves + features.given_way > 0) progress.note(note);
+}
+
+/// Makes the smooth map's start on the surface cut open along its features; without them where there are none, or no
+/// map of it could be made. `whole`: the levels of the whole surface, made where they are needed.
+void make_smooth_start(const Mesh& mesh, const FeatureEdges& features, std::optional<Levels>& whole,
+                       const ParameterizeOptions& options, Start& start, Progress& progress) {
+  if (!features.empty()) {
+    start.cut = cut_surface(mesh, features);
+    const Levels levels = make_levels(start.cut->surface, options, progress);
+    note_base(levels, options, progress);
+    if (make_smooth(levels, options, start, progress)) return;
+    progress.note("no map of the surface with its feature curves could be made: it is made without them");
+    start.features.given_way += std::exchange(start.features.curves, 0);
+    start.features.edges.clear();
+    start.cut.reset();
+  }
+  if (!whole) whole.emplace(make_levels(std::make_shared<const Surface>(mesh), options, progress));
+  note_base(*whole, options, progress);
+  if (!make_smooth(*whole, options, start, progress)) refuse_levels();
+}
+
+/// Simplifies the surface and makes what the methods start from: the baselines on the first simplification that has
+/// MAPS' map, whichever methods stand beside them, and without features.
+Start make_start(const Mesh& mesh, ChosenFeatures chosen, const std::vector<Method>& methods,
+                 const ParameterizeOptions& options, Progress& progress) {
+  Start start;
+  start.features = std::move(chosen);
+  FeatureEdges features = start.features.edges;
+  const Mesh fine = refined(mesh, features, options, progress);
+  const auto smooth_ones = std::count(methods.begin(), methods.end(), Method::Gsp);
+  std::optional<Levels> whole;
+  if (smooth_ones < static_cast<int>(methods.size())) {
+    whole.emplace(make_levels(std::make_shared<const Surface>(fine), options, progress));
+    if (smooth_ones == 0) note_base(*whole, options, progress);
+    start.omega = whole->simplified.omega;
+    const auto make = [](const SimplifyResult& simplified) -> std::optional<SmoothedMap> {
+      const std::optional<OverlayMap> maps = maps_overlay(simplified);
+      if (!maps) return std::nullopt;
+      return SmoothedMap{maps->coarsened().atlas, {}};
+    };
+    const auto maps = join_levels(*whole, options, make, progress);
+    if (!maps) refuse_levels();
+    start.maps = maps->atlas;
+  }
+  if (smooth_ones > 0) make_smooth_start(fine, features, whole, options, start, progress);
   return start;
 }
 
@@ -190,8 +254,11 @@ ParameterizeResult finish(const Mesh& input, const Start& start, Method method, 
   if (method == Method::MapsSmoothed) result.flips_before_repair = smooth_by_loop(atlas, progress);
   if (method == Method::Hybrid)
     relax_patch_pairs(atlas, LinearWeights(*atlas.surface, options.weights), kPairPasses, progress);
-  result.map = atlas.finish(provenance(input, options, method, atlas));
+  result.map = atlas.finish({});
+  if (method == Method::Gsp && start.cut) result.map = glue_map(std::move(result.map), *start.cut);
+  result.map.provenance = provenance(input, options, method, result.map.base);
   if (method == Method::Gsp) {
+    result.features = start.features;
     const MapCheck check = check_map(result.map);
     if (!check.valid()) {
       std::ostringstream why;
@@ -215,7 +282,10 @@ std::vector<ParameterizeResult> parameterize_all(const Mesh& mesh, const std::ve
   if (shortening.any()) progress.note("the surface is long and thin, and so are its patches");
   Mesh image = mesh;
   if (shortening.any()) shortening.press(image);
-  const Start start = make_start(image, methods, options, progress);
+  const bool smooth = std::count(methods.begin(), methods.end(), Method::Gsp) > 0;
+  ChosenFeatures features = smooth ? choose_features(mesh, options) : ChosenFeatures{};
+  note_features(features, progress);
+  const Start start = make_start(image, std::move(features), methods, options, progress);
   std::vector<ParameterizeResult> results;
   for (Method method : methods) {
     ParameterizeResult& result = results.emplace_back(finish(mesh, start, method, options, progress));

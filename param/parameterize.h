@@ -5,6 +5,7 @@
 
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
+#include "param/creases/feature_budget.h"
 #include "param/map/parameterization.h"
 #include "param/options.h"
 
@@ -18,7 +19,8 @@ struct ParameterizeResult {
   int relaxation_rounds = 0;
   int corners_moved = 0;
   int base_edges_flipped = 0;
-  int held_vertices = 0;  ///< kept back from the smooth solution, which would be folded there
+  ChosenFeatures features;  ///< that have become creases of the base; none for the baselines
+  int held_vertices = 0;    ///< kept back from the smooth solution, which would be folded there
 };
 
 /// Computes a globally smooth parameterization of a manifold surface, or a baseline. For Method::Gsp the result is

@@ -21,7 +21,7 @@ using Scope = Axis::Scope;
 
 constexpr const char* kAuto = "auto";
 constexpr const char* kExternal = "external";
-const std::string kAutoOmega = "auto-omega";
+const std::string kAutoOmega = "auto-omega", kNone = "none";
 constexpr double kMostWeight = 1e6;
 constexpr int kMostRelaxations = 1000;
 constexpr int kMostReplicate = 1000000;
@@ -97,6 +97,21 @@ std::vector<Axis> map_axes() {
       {"base_edges", kStage, Kind::Word, 0, 0, words_of(kBaseEdges, base_edges_name),
        [](const Options& o) { return Value(base_edges_name(o.parameterize.base_edges)); },
        [](Options& o, const Value& v) { o.parameterize.base_edges = base_edges_of(word(v)); }, Scope::Gsp},
+      {"features",
+       kStage,
+       Kind::Integer,
+       1,
+       179,
+       {kNone, kAuto},
+       [](const Options& o) {
+         return o.parameterize.feature_degrees == kNoFeatures
+                    ? Value(kNone)
+                    : integer_or_auto(o.parameterize.feature_degrees, kAutoFeatures);
+       },
+       [](Options& o, const Value& v) {
+         o.parameterize.feature_degrees = v == Value(kNone) ? kNoFeatures : integer_or_auto(v, kAutoFeatures);
+       },
+       Scope::Gsp},
       {"relaxations",
        kStage,
        Kind::Integer,

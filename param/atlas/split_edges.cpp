@@ -11,15 +11,17 @@ namespace {
 
 /// Splits the edges that `wanted(halfedges, h)` names at their middles.
 template <class Wanted>
-int split_where(Mesh& mesh, Wanted&& wanted) {
+std::vector<std::array<int, 2>> split_where(Mesh& mesh, Wanted&& wanted) {
   const Halfedges halfedges(mesh);
   std::vector<int> middle(3 * mesh.faces.size(), -1);
   std::vector<Vec3> added;
+  std::vector<std::array<int, 2>> ends;
   for (int h = 0; h < static_cast<int>(middle.size()); ++h) {
     const int twin = halfedges.twin[h];
     if ((twin >= 0 && twin < h) || !wanted(halfedges, h)) continue;
     middle[h] = mesh.vertex_count() + static_cast<int>(added.size());
     if (twin >= 0) middle[twin] = middle[h];
+    ends.push_back({halfedges.from(h), halfedges.to(h)});
     added.push_back(0.5 * (mesh.positions[halfedges.from(h)] + mesh.positions[halfedges.to(h)]));
   }
   mesh.positions.insert(mesh.positions.end(), added.begin(), added.end());
@@ -52,12 +54,12 @@ int split_where(Mesh& mesh, Wanted&& wanted) {
         mesh.faces.push_back(piece);
     }
   }
-  return static_cast<int>(added.size());
+  return ends;
 }
 
 }  // namespace
 
-int split_boundary_chords(Mesh& mesh) {
+std::vector<std::array<int, 2>> split_boundary_chords(Mesh& mesh) {
   return split_where(mesh, [](const Halfedges& halfedges, int h) {
     return halfedges.twin[h] >= 0 && halfedges.boundary_vertex(halfedges.from(h)) &&
            halfedges.boundary_vertex(halfedges.to(h));
@@ -67,13 +69,13 @@ int split_boundary_chords(Mesh& mesh) {
 LongEdgeSplit split_long_edges(Mesh& mesh, double longest, int most) {
   const Mesh start = mesh;
   for (;; longest *= std::numbers::sqrt2, mesh = start) {
-    int added = 0;
-    while (added <= most) {
-      const int more = split_where(mesh, [&](const Halfedges& halfedges, int h) {
+    LongEdgeSplit split{{}, longest};
+    while (static_cast<int>(split.ends.size()) <= most) {
+      const auto more = split_where(mesh, [&](const Halfedges& halfedges, int h) {
         return (mesh.positions[halfedges.to(h)] - mesh.positions[halfedges.from(h)]).norm() > longest;
       });
-      if (more == 0) return {added, longest};
-      added += more;
+      if (more.empty()) return split;
+      split.ends.insert(split.ends.end(), more.begin(), more.end());
     }
   }
 }

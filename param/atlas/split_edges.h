@@ -1,17 +1,21 @@
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "mesh/mesh.h"
 
 namespace gsp {
 
 /// Splits every interior edge whose two ends lie on the boundary at its middle. Without this a face whose corners lie
 /// on one straight boundary edge of the base would have no area. New vertices come last; each split face is replaced in
-/// place, the further pieces come last. Returns the number of vertices added.
-int split_boundary_chords(Mesh& mesh);
+/// place, the further pieces come last. Returns for each new vertex the two that it lies between.
+std::vector<std::array<int, 2>> split_boundary_chords(Mesh& mesh);
 
 /// What `split_long_edges` did.
 struct LongEdgeSplit {
-  int added = 0;         ///< vertices
+  std::vector<std::array<int, 2>> ends;  ///< of each vertex added, the two that it lies between
+  int added() const { return static_cast<int>(ends.size()); }
   double longest = 0.0;  ///< length to which edges were split: what was asked for, or more where that took too many
 };
 

@@ -36,6 +36,30 @@ std::vector<double> voronoi_areas(const Mesh& mesh) {
 
 }  // namespace
 
+Seams Seams::of(const std::vector<int>& vertices) const {
+  if (!any()) return {};
+  Seams some{std::vector<int>(vertices.size(), -1), std::vector<int>(vertices.size(), -1), points};
+  std::vector<int> number(point.size(), -1);
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    if (point_of(vertices[i]) >= 0) number[vertices[i]] = static_cast<int>(i);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    some.point[i] = point_of(vertices[i]);
+    if (const int mate = other_of(vertices[i]); mate >= 0) some.other[i] = number[mate];
+  }
+  return some;
+}
+
+int Seams::count_whole(const std::vector<int>& vertices) const {
+  std::vector<char> seen(points, 0);
+  int count = 0;
+  for (int v : vertices) {
+    const int at = point_of(v);
+    count += at < 0 || !seen[at];
+    if (at >= 0) seen[at] = 1;
+  }
+  return count;
+}
+
 Surface::Surface(Mesh input) : mesh(std::move(input)), halfedges(mesh) {
   edge_of.assign(3 * mesh.faces.size(), -1);
   for (int h = 0; h < static_cast<int>(edge_of.size()); ++h) {

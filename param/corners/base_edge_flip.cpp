@@ -181,6 +181,21 @@ class Flip {
 
 }  // namespace
 
+namespace {
+
+/// Whether a base edge joins c, which is on no boundary, and d, or another copy of d where the surface was cut.
+bool joined(const Atlas& atlas, int c, int d) {
+  const auto is_d = [&](int b) { return atlas.surface->seams.same(atlas.base.vertices[b], atlas.base.vertices[d]); };
+  const auto& sectors = atlas.fans[c].sectors;
+  return face_beside(atlas.base, atlas.fans, c, d) >= 0 ||
+         std::any_of(sectors.begin(), sectors.end(), [&](const BaseFan::Sector& s) {
+           const Triangle& t = atlas.base.faces[s.face];
+           return std::any_of(t.begin(), t.end(), is_d);
+         });
+}
+
+}  // namespace
+
 std::optional<FlipSite> flip_site(const Atlas& atlas, int diagonal) {
   const BaseComplex& base = atlas.base;
   const int twin = base.twins[diagonal];
@@ -189,8 +204,9 @@ std::optional<FlipSite> flip_site(const Atlas& atlas, int diagonal) {
   const int a = corner(diagonal), b = corner(twin), c = corner(Halfedges::prev(diagonal)),
             d = corner(Halfedges::prev(twin));
   const auto too_few = [&](int v) { return atlas.fans[v].valence() <= (atlas.fans[v].boundary ? 1 : kFewestPatches); };
-  if (c == d || too_few(a) || too_few(b) || face_beside(base, atlas.fans, c, d) >= 0) return std::nullopt;
+  if (c == d || too_few(a) || too_few(b)) return std::nullopt;
   if (atlas.fans[c].boundary && atlas.fans[d].boundary) return std::nullopt;
+  if (atlas.fans[c].boundary ? joined(atlas, d, c) : joined(atlas, c, d)) return std::nullopt;
   return FlipSite{diagonal, {a, b, c, d}, {diagonal / 3, twin / 3}};
 }
 

@@ -32,7 +32,8 @@ int move_corners(Atlas& atlas, double radius, Folding folding, const MakeCornerM
     std::vector<CornerMove> moves(atlas.fans.size());
     parallel_for(moves.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b)
-        if (!done[b] && make(CornerDisc(atlas, shrink * radius, static_cast<int>(b)), moves[b]))
+        if (!done[b] && atlas.surface->seams.point_of(atlas.base.vertices[b]) < 0 &&
+            make(CornerDisc(atlas, shrink * radius, static_cast<int>(b)), moves[b]))
           moves[b].base_vertex = static_cast<int>(b);
     });
     for (CornerMove& move : moves) {

@@ -12,7 +12,7 @@ enum class Folding { Allowed, Refused };
 
 /// Lays out the region around each corner by `make`, which fills the move from the fresh disc or returns false; `make`
 /// is called from several threads. A region that is refused, or would bring a fold where folds are, is tried smaller,
-/// then left alone. Returns how many were laid out.
+/// then left alone, and so are corners on feature curves. Returns how many were laid out.
 using MakeCornerMove = std::function<bool(CornerDisc disc, CornerMove& move)>;
 int move_corners(Atlas& atlas, double radius, Folding folding, const MakeCornerMove& make);
 

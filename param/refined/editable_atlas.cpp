@@ -35,7 +35,9 @@ EditableAtlas tighten(RefinedSurface refined, const LooseMap& loose, BaseComplex
   Atlas atlas;
   atlas.base = std::move(base);
   atlas.fans = std::move(fans);
-  atlas.surface = std::make_shared<const Surface>(std::move(compact.mesh));
+  const auto surface = std::make_shared<Surface>(std::move(compact.mesh));
+  surface->seams = refined.original().seams;
+  atlas.surface = surface;
   atlas.first_added = refined.original().mesh.vertex_count();
   const int count = atlas.surface->mesh.vertex_count();
   atlas.patch.assign(count, -1);

@@ -212,7 +212,10 @@ bool RemovalCost::triangulate(Candidate& candidate) {
 
 bool RemovalCost::leaves_surface(const Star& star) const {
   const int n = star.size();
-  if (n < 3 || n > kLargestRing) return false;
+  if (n < 3 || n > kLargestRing || complex_.seams().is_corner(star.center)) return false;
+  if (const int other = complex_.seams().other_of(star.center); other >= 0)
+    return complex_.component_vertices(star.center) > 4 &&
+           complex_.loop_vertices(star.center) > (complex_.on_same_loop(star.center, other) ? 4 : 3);
   return star.boundary ? complex_.loop_vertices(star.center) > 3 : complex_.component_vertices(star.center) > 4;
 }
 

@@ -33,7 +33,8 @@ class RemovalCost {
   /// `candidate`: with parts and triangles where it is feasible.
   void price(int vertex, Candidate& candidate);
 
-  /// Whether its boundary and its component have a vertex to spare, and its ring is not too large.
+  /// Whether its boundary and its component have a vertex to spare, and its ring is not too large. A corner of feature
+  /// curves is never spared; inside a curve both copies go.
   bool leaves_surface(const Star& star) const;
 
  private:

@@ -28,7 +28,9 @@ CoarseSurface coarse_surface(const VertexMap& map) {
     for (int v : map.points()[t]) area += fine.vertex_area[v];
     areas.push_back(area);
   }
-  coarse.surface = std::make_shared<const Surface>(std::move(mesh), std::move(areas));
+  const auto surface = std::make_shared<Surface>(std::move(mesh), std::move(areas));
+  surface->seams = fine.seams.of(coarse.vertex);
+  coarse.surface = surface;
   return coarse;
 }
 

@@ -1,17 +1,23 @@
 #include "param/removal/triangle_complex.h"
 
+#include <algorithm>
+
 namespace gsp {
 
 TriangleComplex::TriangleComplex(const Surface& surface)
     : corners_(surface.mesh.faces),
       neighbours_(surface.mesh.faces.size()),
-      incident_(surface.mesh.positions.size(), -1) {
+      incident_(surface.mesh.positions.size(), -1),
+      seams_(surface.seams),
+      copies_(surface.seams.points) {
   for (int h = 0; h < static_cast<int>(surface.halfedges.twin.size()); ++h) {
     const int twin = surface.halfedges.twin[h];
     neighbours_[h / 3][h % 3] = twin < 0 ? -1 : twin / 3;
   }
   for (std::size_t v = 0; v < incident_.size(); ++v)
     if (surface.halfedges.outgoing[v] >= 0) incident_[v] = surface.halfedges.outgoing[v] / 3;
+  for (std::size_t v = 0; v < seams_.point.size(); ++v)
+    if (seams_.point[v] >= 0) copies_[seams_.point[v]].push_back(static_cast<int>(v));
   label_components(surface);
 }
 
@@ -29,12 +35,15 @@ void TriangleComplex::label_components(const Surface& surface) {
     while (!stack.empty()) {
       const int v = stack.back();
       stack.pop_back();
-      ++component_size_[label];
-      surface.for_each_neighbour(v, [&](int w, int, bool) {
+      const auto reach = [&](int w) {
         if (component_[w] >= 0) return;
         component_[w] = label;
         stack.push_back(w);
-      });
+      };
+      const int point = seams_.point_of(v);
+      component_size_[label] += point < 0 || copies_[point].front() == v;
+      surface.for_each_neighbour(v, [&](int w, int, bool) { reach(w); });
+      if (point >= 0) std::for_each(copies_[point].begin(), copies_[point].end(), reach);
     }
   }
   for (int seed = 0; seed < count; ++seed) {
@@ -79,17 +88,29 @@ void TriangleComplex::gather(int vertex, Star& star) const {
   } while (t >= 0 && t != first);
 }
 
-bool TriangleComplex::edge_exists(int a, int b) const {
+bool TriangleComplex::edge_at(int a, int b) const {
   const int first = incident_[a];
+  const auto has = [&](int t) {
+    return corner_index(t, b) >= 0 ||
+           (seams_.point_of(b) >= 0 &&
+            std::any_of(corners_[t].begin(), corners_[t].end(), [&](int v) { return seams_.same(v, b); }));
+  };
   int t = first;
   do {  // counter-clockwise
-    if (corner_index(t, b) >= 0) return true;
+    if (has(t)) return true;
     t = neighbours_[t][(corner_index(t, a) + 2) % 3];
   } while (t >= 0 && t != first);
   if (t == first) return false;
   for (t = neighbours_[first][corner_index(first, a)]; t >= 0; t = neighbours_[t][corner_index(t, a)])
-    if (corner_index(t, b) >= 0) return true;
+    if (has(t)) return true;
   return false;
+}
+
+bool TriangleComplex::edge_exists(int a, int b) const {
+  const int point = seams_.point_of(a);
+  if (point < 0) return edge_at(a, b);
+  return seams_.same(a, b) || std::any_of(copies_[point].begin(), copies_[point].end(),
+                                          [&](int copy) { return incident_[copy] >= 0 && edge_at(copy, b); });
 }
 
 void TriangleComplex::replace(const Star& star, const std::vector<RingTriangle>& triangles, std::vector<int>& slots) {
@@ -130,7 +151,8 @@ void TriangleComplex::replace(const Star& star, const std::vector<RingTriangle>&
   }
   for (std::size_t i = triangles.size(); i < star.triangles.size(); ++i) corners_[star.triangles[i]] = {-1, -1, -1};
   incident_[star.center] = -1;
-  --component_size_[component_[star.center]];
+  const int other = seams_.other_of(star.center);
+  if (other < 0 || incident_[other] < 0) --component_size_[component_[star.center]];
   if (star.boundary) --loop_size_[loop_[star.center]];
 }
 

@@ -48,24 +48,31 @@ class TriangleComplex {
   int opposite(int triangle, int vertex) const { return neighbour(triangle, (corner_index(triangle, vertex) + 1) % 3); }
 
   void gather(int vertex, Star& star) const;
+  /// Whether an edge joins two vertices, or copies of them; the copies of one vertex count as joined.
   bool edge_exists(int a, int b) const;
-  /// Component of the surface the vertex belongs to, and how many vertices of the complex it still has.
+  /// How many vertices of the complex the surface's component of a vertex still has, copies counted once and the
+  /// component taken whole.
   int component_vertices(int vertex) const { return component_size_[component_[vertex]]; }
   bool on_boundary(int vertex) const { return loop_[vertex] >= 0; }
   /// Vertices left on the boundary loop of a boundary vertex.
   int loop_vertices(int vertex) const { return loop_size_[loop_[vertex]]; }
+  bool on_same_loop(int a, int b) const { return loop_[a] == loop_[b]; }
+  const Seams& seams() const { return seams_; }
 
   /// Puts the triangles in place of the star; `slots` receives the slot of each. Slots that are left over die.
   void replace(const Star& star, const std::vector<RingTriangle>& triangles, std::vector<int>& slots);
 
  private:
   void label_components(const Surface& surface);
+  bool edge_at(int a, int b) const;
 
   std::vector<Triangle> corners_;
   std::vector<std::array<int, 3>> neighbours_;
   std::vector<int> incident_;
   std::vector<int> component_, component_size_;
   std::vector<int> loop_, loop_size_;
+  Seams seams_;
+  std::vector<std::vector<int>> copies_;  ///< per point of the seams, its vertices
 };
 
 }  // namespace gsp

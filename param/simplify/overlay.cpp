@@ -1,6 +1,7 @@
 #include "param/simplify/overlay.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "mesh/error.h"
 #include "param/removal/flatten.h"
@@ -68,6 +69,8 @@ OverlayMap::Backup OverlayMap::lay_out(int vertex) {
     backup.place.push_back(at);
   }
   backup.refined = refined_->snapshot(faces, region_.vertices());
+  backup.star = star_;
+  backup.vertices = region_.vertices();
   return backup;
 }
 
@@ -77,11 +80,10 @@ void OverlayMap::leave() {
 }
 
 void OverlayMap::take_back(const Backup& backup) {
-  leave();
   refined_->restore(backup.refined);
   place_.resize(refined_->vertex_count());
-  for (std::size_t i = 0; i < backup.place.size(); ++i) place_[region_.vertices()[i]] = backup.place[i];
-  for (std::size_t k = 0; k < star_.triangles.size(); ++k) pieces_[star_.triangles[k]] = backup.pieces[k];
+  for (std::size_t i = 0; i < backup.place.size(); ++i) place_[backup.vertices[i]] = backup.place[i];
+  for (std::size_t k = 0; k < backup.star.triangles.size(); ++k) pieces_[backup.star.triangles[k]] = backup.pieces[k];
 }
 
 bool OverlayMap::cut_all(const Removal& removal) {
@@ -145,8 +147,22 @@ bool OverlayMap::winds() const {
   return static_cast<long>(region_.faces().size()) > kMostPieces * (own + kFewVertices);
 }
 
-bool OverlayMap::remove(const Removal& removal) {
-  const Backup backup = lay_out(removal.vertex);
+bool OverlayMap::remove(const std::vector<Removal>& removals) {
+  std::optional<TriangleComplex> before;
+  if (removals.size() > 1) before = complex_;
+  std::vector<Backup> backups;
+  for (const Removal& removal : removals) {
+    backups.push_back(lay_out(removal.vertex));
+    if (cut_star(removal)) continue;
+    for (; !backups.empty(); backups.pop_back()) take_back(backups.back());
+    if (before) complex_ = *before;
+    return false;
+  }
+  return true;
+}
+
+/// Makes one removal of which the pieces are laid out. False where it cannot be made, and must be taken back.
+bool OverlayMap::cut_star(const Removal& removal) {
   region_.relax();
   bool possible = cut_all(removal) && (winding_ == Winding::Allowed || !winds());
   if (possible) {
@@ -161,14 +177,12 @@ bool OverlayMap::remove(const Removal& removal) {
     for (std::size_t t = 0; t < removal.triangles.size() && possible; ++t)
       possible = fill(star_.triangles[t], removal.triangles[t]);
   }
-  if (!possible) {
-    take_back(backup);
-    return false;
+  if (possible) {
+    complex_.replace(star_, removal.triangles, slots_);
+    region_.take_out();
   }
-  complex_.replace(star_, removal.triangles, slots_);
-  region_.take_out();
   leave();
-  return true;
+  return possible;
 }
 
 /// Where a vertex lies in its home chart.
@@ -199,7 +213,9 @@ Transition OverlayMap::to_home(const Atlas& atlas, int v, int chart, const Place
 
 Atlas OverlayMap::atlas_on(const RefinedSurface::Compact& compact) const {
   Atlas atlas;
-  atlas.surface = std::make_shared<const Surface>(compact.mesh);
+  const auto cut = std::make_shared<Surface>(compact.mesh);
+  cut->seams = surface_->seams;
+  atlas.surface = cut;
   atlas.first_added = surface_->mesh.vertex_count();
   const Surface& surface = *atlas.surface;
   const int count = surface.mesh.vertex_count();

@@ -28,7 +28,9 @@ class OverlayMap {
 
   /// Fills the hole of the removed vertex. False, and nothing is changed, where a piece of the star would be too small
   /// for rounding, or where the edges of the complex would wind and must not.
-  bool remove(const Removal& removal);
+  bool remove(const Removal& removal) { return remove(std::vector<Removal>{removal}); }
+  /// All of several whose stars have no triangle in common, or none.
+  bool remove(const std::vector<Removal>& removals);
 
   const std::shared_ptr<const Surface>& surface() const { return surface_; }
   const TriangleComplex& complex() const { return complex_; }
@@ -56,12 +58,15 @@ class OverlayMap {
 
   struct Backup {
     RefinedSurface::Snapshot refined;
-    std::vector<Place> place;              ///< per vertex of the region
+    Star star;
+    std::vector<int> vertices;             ///< of the region
+    std::vector<Place> place;              ///< of each
     std::vector<std::vector<int>> pieces;  ///< per triangle of the star
   };
   Backup lay_out(int vertex);
   void take_back(const Backup& backup);
   void leave();
+  bool cut_star(const Removal& removal);
   bool cut_all(const Removal& removal);
   bool winds() const;
   void straighten_boundary();

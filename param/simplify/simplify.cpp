@@ -35,10 +35,8 @@ constexpr int kLevelPerBase = 24;               // vertices of the coarsest leve
 // star (RemovalCost::kSamples), so it means far fewer digits than this changes.
 constexpr double kPriceNoise = 1e-4;
 
-int used_vertices(const Surface& surface) {
-  return static_cast<int>(std::count_if(surface.halfedges.outgoing.begin(), surface.halfedges.outgoing.end(),
-                                        [](int h) { return h >= 0; }));
-}
+/// Copies of one counted once.
+int used_vertices(const Surface& surface) { return surface.seams.count_whole(remaining_vertices(surface, {})); }
 
 /// A triangle of ring vertices as indices into the ring.
 RingTriangle in_ring(const Star& star, const Triangle& vertices) {
@@ -71,14 +69,25 @@ class Simplifier {
     std::vector<int> face;    ///< per triangle of the complex
   };
 
+  const Seams& seams() const { return surface_->seams; }
+  /// The vertex by which it is queued: of two copies the first.
+  int key(int vertex) const {
+    const int other = seams().other_of(vertex);
+    return other >= 0 && other < vertex ? other : vertex;
+  }
+  OmegaRecord parts(int vertex) const;
   double price(int vertex) const;
+  void price_with_copy(RemovalCost& pricer, int vertex);
+  bool fit(int vertex, int other) const;
   void price_all();
   void price_next(int vertex);
   void remove_down_to(int target);
-  bool remove(const Star& star, const Candidate& candidate);
+  bool gather(int vertex);
+  bool remove();
+  void take_out(const Star& star, const Candidate& candidate);
   bool has_taken_edge(const Star& star, const Candidate& candidate) const;
   Star of_level(const Star& star) const;
-  bool remove_from_overlay(const Star& star, const std::vector<RingTriangle>& triangles);
+  Removal in_overlay(const Star& star, const std::vector<RingTriangle>& triangles) const;
   void end_level();
 
   std::shared_ptr<const Surface> surface_;
@@ -102,15 +111,52 @@ class Simplifier {
   std::vector<int> batch_;
   std::vector<Entry> fresh_;
   std::vector<Triangle> filling_;
+  std::vector<Star> stars_;  ///< of the removal in hand, one for each copy of its vertex
 };
+
+/// What the removal of a vertex with all its copies does.
+OmegaRecord Simplifier::parts(int vertex) const {
+  OmegaRecord sum = candidates_[vertex].parts;
+  if (const int other = seams().other_of(vertex); other >= 0) {
+    const OmegaRecord& more = candidates_[other].parts;
+    sum.shape += more.shape;
+    sum.dispersion += more.dispersion;
+    sum.metric += more.metric;
+  }
+  return sum;
+}
 
 /// What the removal costs, by which vertices are queued: its Ω, but for a replicate's chance.
 double Simplifier::price(int vertex) const {
-  const double omega = candidates_[vertex].parts.omega();
+  const double omega = parts(vertex).omega();
   if (options_.replicate == 0) return omega;
   // A generator of its own for each vertex, so that its factor does not depend on the order of the prices.
   Random random(static_cast<std::uint64_t>(options_.replicate) << 32 | static_cast<std::uint32_t>(vertex));
   return omega * (1.0 + kPriceNoise * (2.0 * random.uniform() - 1.0));
+}
+
+/// Whether the fillings of two copies' holes have no edge in common on the whole surface, but for that along the curve.
+bool Simplifier::fit(int vertex, int other) const {
+  Star here, there;
+  map_.complex().gather(vertex, here);
+  map_.complex().gather(other, there);
+  const auto is_closing = [](const Star& star, const RingTriangle& t) { return t[0] == 0 && t[2] == star.size() - 1; };
+  for (const RingTriangle& t : candidates_[vertex].triangles)
+    for (const RingTriangle& u : candidates_[other].triangles) {
+      if (is_closing(here, t) || is_closing(there, u)) continue;
+      const int a = here.ring[t[0]], b = here.ring[t[2]], c = there.ring[u[0]], d = there.ring[u[2]];
+      if ((seams().same(a, c) && seams().same(b, d)) || (seams().same(a, d) && seams().same(b, c))) return false;
+    }
+  return true;
+}
+
+/// Prices a vertex, and with it its other copy, which goes with it or stays with it.
+void Simplifier::price_with_copy(RemovalCost& pricer, int vertex) {
+  pricer.price(vertex, candidates_[vertex]);
+  const int other = seams().other_of(vertex);
+  if (other < 0 || !candidates_[vertex].feasible) return;
+  pricer.price(other, candidates_[other]);
+  candidates_[vertex].feasible = candidates_[other].feasible && fit(vertex, other);
 }
 
 void Simplifier::price_all() {
@@ -119,13 +165,14 @@ void Simplifier::price_all() {
   parallel_for(count, 2048, [&](std::size_t begin, std::size_t end) {
     RemovalCost pricer = pricers_.front();
     for (std::size_t v = begin; v < end; ++v)
-      if (surface_->halfedges.outgoing[v] >= 0) pricer.price(static_cast<int>(v), candidates_[v]);
+      if (surface_->halfedges.outgoing[v] >= 0 && key(static_cast<int>(v)) == static_cast<int>(v))
+        price_with_copy(pricer, static_cast<int>(v));
   });
   stamp_.assign(count, 0);
   stale_.assign(count, 0);
   queued_.assign(count, 0);
   for (int v = 0; v < count; ++v) {
-    if (!candidates_[v].feasible) continue;
+    if (key(v) != v || !candidates_[v].feasible) continue;
     queue_.push({price(v), v, 0});
     queued_[v] = 1;
   }
@@ -157,7 +204,7 @@ void Simplifier::price_next(int vertex) {
   for (const Entry& entry : fresh_) queue_.push(entry);
   const std::size_t block = (batch_.size() + kBlocks - 1) / kBlocks;
   parallel_for(batch_.size(), block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) pricers_[begin / block].price(batch_[i], candidates_[batch_[i]]);
+    for (std::size_t i = begin; i < end; ++i) price_with_copy(pricers_[begin / block], batch_[i]);
   });
   for (int v : batch_) {
     stale_[v] = 0;
@@ -169,28 +216,26 @@ void Simplifier::price_next(int vertex) {
 
 void Simplifier::remove_down_to(int target) {
   std::vector<OmegaRecord>& record = result_.omega;
-  Star star;
   while (!ended_ && remaining_ > target && !queue_.empty()) {
     const Entry top = queue_.top();
     queue_.pop();
     if (top.stamp != stamp_[top.vertex]) continue;
-    Candidate& candidate = candidates_[top.vertex];
-    if (!stale_[top.vertex]) map_.complex().gather(top.vertex, star);
-    if (stale_[top.vertex] || has_taken_edge(star, candidate)) {
+    if (stale_[top.vertex] || !gather(top.vertex)) {
       price_next(top.vertex);
       continue;
     }
     queued_[top.vertex] = 0;  // if it cannot be removed now it waits until its star changes
-    if (!pricers_.front().leaves_surface(star)) continue;
-    candidate.parts.remaining_vertices = remaining_ - 1;
-    if (options_.base_vertices == kBaseByOmega && stop_.reached(candidate.parts)) {
-      record.push_back(candidate.parts);
+    if (!std::all_of(stars_.begin(), stars_.end(), [&](const Star& s) { return pricers_.front().leaves_surface(s); }))
+      continue;
+    OmegaRecord next = parts(top.vertex);
+    next.remaining_vertices = remaining_ - 1;
+    if (options_.base_vertices == kBaseByOmega && stop_.reached(next)) {
+      record.push_back(next);
       ended_ = true;
       return;
     }
-    if (!remove(star, candidate)) continue;
-    record.push_back(candidate.parts);
-    candidate = {};
+    if (!remove()) continue;
+    record.push_back(next);
     if (record.size() % 4096 == 0)
       progress_.report("simplify", double(record.size()) / (start_ - options_.base_vertices));
   }
@@ -206,41 +251,60 @@ Star Simplifier::of_level(const Star& star) const {
 }
 
 /// The same removal by the overlay's complex, which may start its ring elsewhere.
-bool Simplifier::remove_from_overlay(const Star& star, const std::vector<RingTriangle>& triangles) {
+Removal Simplifier::in_overlay(const Star& star, const std::vector<RingTriangle>& triangles) const {
   Star there;
   result_.map->complex().gather(level_.vertex[star.center], there);
   Removal removal{there.center, {}};
   for (const RingTriangle& t : triangles)
     removal.triangles.push_back(in_ring(
         there, {level_.vertex[star.ring[t[0]]], level_.vertex[star.ring[t[1]]], level_.vertex[star.ring[t[2]]]}));
-  return result_.map->remove(removal);
+  return removal;
 }
 
-bool Simplifier::remove(const Star& star, const Candidate& candidate) {
-  if (!result_.map)
-    decimation_.add(of_level(star), candidate.triangles);
-  else if (!remove_from_overlay(star, candidate.triangles))
-    return false;
+/// The stars of a vertex and its copy. False where an edge of their fillings has been taken.
+bool Simplifier::gather(int vertex) {
+  const int other = seams().other_of(vertex);
+  stars_.resize(other >= 0 ? 2 : 1);
+  map_.complex().gather(vertex, stars_.front());
+  if (other >= 0) map_.complex().gather(other, stars_.back());
+  return std::none_of(stars_.begin(), stars_.end(),
+                      [&](const Star& star) { return has_taken_edge(star, candidates_[star.center]); });
+}
+
+/// Makes the removal in hand.
+bool Simplifier::remove() {
+  if (result_.map) {
+    std::vector<Removal> removals;
+    for (const Star& star : stars_) removals.push_back(in_overlay(star, candidates_[star.center].triangles));
+    if (!result_.map->remove(removals)) return false;
+  }
+  for (const Star& star : stars_) take_out(star, candidates_[star.center]);
+  for (const Star& star : stars_) candidates_[star.center] = {};
+  --remaining_;
+  return true;
+}
+
+void Simplifier::take_out(const Star& star, const Candidate& candidate) {
+  if (!result_.map) decimation_.add(of_level(star), candidate.triangles);
   const TriangleComplex& complex = map_.complex();
   for (int t : star.triangles) {
     const int other = complex.opposite(t, star.center);
     if (other < 0) continue;
-    for (int v : complex.corners(other)) stale_[v] = 1;
+    for (int v : complex.corners(other)) stale_[key(v)] = 1;
   }
   map_.remove({star.center, candidate.triangles});
   filling_.clear();
   for (const RingTriangle& t : candidate.triangles)
     filling_.push_back({star.ring[t[0]], star.ring[t[1]], star.ring[t[2]]});
   result_.removals.add(star.center, filling_);
-  --remaining_;
-  for (int neighbour : star.ring) {
+  for (int v : star.ring) {
+    const int neighbour = key(v);
     stale_[neighbour] = 1;  // on a boundary the triangles behind do not name all
     if (queued_[neighbour]) continue;
     // It could not be removed before; in its new star it may be.
     queue_.push({0.0, neighbour, ++stamp_[neighbour]});
     queued_[neighbour] = 1;
   }
-  return true;
 }
 
 /// The complex becomes the surface of the next level.
@@ -275,7 +339,7 @@ SimplifyResult Simplifier::run(int coarsest) {
   result_.map.emplace(level_.surface);
   for (RemovalCost& pricer : pricers_) pricer.allow_chords();
   for (int v = 0; v < static_cast<int>(queued_.size()); ++v)  // what could not be removed before may be now
-    if (!queued_[v] && level_.vertex[v] >= 0 && surface_->halfedges.outgoing[v] >= 0) {
+    if (key(v) == v && !queued_[v] && level_.vertex[v] >= 0 && surface_->halfedges.outgoing[v] >= 0) {
       queue_.push({0.0, v, ++stamp_[v]});
       stale_[v] = queued_[v] = 1;
     }

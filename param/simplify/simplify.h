@@ -41,8 +41,10 @@ struct SimplifyResult {
 
 /// Builds the base complex by greedy vertex removal (§3.1), carrying the map. Stops at options.base_vertices, or where
 /// no vertex can be removed: the star would not stay a disc, the complex not an embedded one, or a piece of the overlay
-/// would be too small for rounding. `coarsest`: vertices with which the last level starts at the latest, such as
-/// `coarsest_level` has it; no less than the surface's for a single level. Deterministic.
+/// would be too small for rounding. On a surface that was cut open along feature curves both copies of a vertex inside
+/// one are removed at once, and the corners of curves stay; what is counted are vertices of the whole surface, and the
+/// complex glued together stays an embedded one. `coarsest`: vertices with which the last level starts at the latest,
+/// such as `coarsest_level` has it; no less than the surface's for a single level. Deterministic.
 SimplifyResult simplify(std::shared_ptr<const Surface> surface, const ParameterizeOptions& options, int coarsest,
                         Progress& progress);
 

@@ -4,6 +4,7 @@
 #include "param/corners/choose_base_flips.h"
 #include "param/corners/descend_corners.h"
 #include "param/corners/relax_corners.h"
+#include "param/creases/settle_creases.h"
 #include "param/energy/lower_distortion.h"
 #include "param/linear/weights.h"
 #include "param/reinsert/reinsertion.h"
@@ -75,11 +76,13 @@ std::optional<SmoothedMap> smooth_levels(const SimplifyResult& simplified, const
                                          Progress& progress) {
   EditableAtlas map = simplified.map->coarsened();
   map.atlas.reassign_all();
+  if (!settle_creases(map.atlas, progress)) return std::nullopt;
   const SmoothingRecord record = smooth_coarsest(map, options, simplified.finer.empty(), progress);
   for (auto level = simplified.finer.rbegin(); level != simplified.finer.rend(); ++level) {
     std::optional<EditableAtlas> more = reinsert(*level, map);
     if (!more) return std::nullopt;
     map = std::move(*more);
+    if (!settle_creases(map.atlas, progress)) return std::nullopt;
     smooth_finer(map, options, progress);
   }
   return SmoothedMap{std::move(map.atlas), record};

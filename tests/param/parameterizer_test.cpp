@@ -245,7 +245,7 @@ TEST_CASE("splitting long edges leaves none, keeps the surface and puts new vert
   const Mesh before = shapes::grid(3, 2);
   Mesh mesh = before;
   const LongEdgeSplit split = split_long_edges(mesh, 0.3, 1000);
-  CHECK(split.added > 0);
+  CHECK(split.added() > 0);
   CHECK(split.longest == 0.3);
   const Surface surface(mesh);
   for (int e = 0; e < surface.edge_count(); ++e) {

@@ -61,7 +61,7 @@ may_include coder 'remesh|mesh'
 may_include metrics 'param|mesh'
 may_include experiments 'mesh|param|remesh|coder|metrics'
 rooms mesh files features
-rooms param map atlas linear refined energy removal simplify reinsert corners baselines stages
+rooms param map atlas linear refined energy removal simplify reinsert corners baselines creases stages
 rooms remesh filters normal displaced scalar
 rooms coder displaced
 rooms experiments output external figures cells base curve plot store sweep check report

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "mesh/features/features.h"
+#include "param/options.h"
+
+namespace gsp {
+
+/// The features along which a surface is cut.
+struct ChosenFeatures {
+  FeatureEdges edges;
+  int curves = 0;
+  int given_way = 0;  ///< curves that were dropped
+};
+
+/// Base vertices that curves need at least: their corners, and three on a closed one.
+int corners_needed(const std::vector<FeatureCurve>& curves);
+
+/// The features that the options ask for, as many as a base of that size has room for: the shortest and least sharp
+/// curves give way first. Throws Error: BadOption, and for given features IndexOutOfRange, or Malformed where one is no
+/// interior edge of the surface. O(F log F) for each tenth of the curves that gives way.
+ChosenFeatures choose_features(const Mesh& mesh, const ParameterizeOptions& options);
+
+}  // namespace gsp
