@@ -33,9 +33,11 @@ int run_decode(const DecodeArguments& options, Context& context) {
   const std::size_t budget = options.bytes == 0 ? stream.size() : std::min(options.bytes, stream.size());
   const SemiregularMesh mesh = decode(stream, budget);
   write_semiregular(options.output, mesh);
-  print_report(
-      context,
-      {{"bytes", budget}, {"level", mesh.level}, {"vertices", mesh.positions.size()}, {"output", options.output}});
+  print_report(context, {{"bytes", budget},
+                         {"level", mesh.level},
+                         {"vertices", mesh.positions.size()},
+                         {"crease_edges", mesh.creases.size()},
+                         {"output", options.output}});
   return 0;
 }
 

@@ -76,6 +76,7 @@ int run_encode(const EncodeArguments& options, Context& context) {
                          {"mode", options.mode},
                          {"level", mesh.level},
                          {"vertices", mesh.positions.size()},
+                         {"crease_edges", mesh.creases.size()},
                          {"bytes", stream.size()},
                          {"header_bytes", header},
                          {"whole_stream_bytes", whole.size()},

@@ -95,10 +95,12 @@ Json levels(const std::string& path) {
   return {{"level", mesh.level},
           {"base_vertices", mesh.base_vertices},
           {"base_faces", mesh.base_faces.size()},
+          {"crease_edges", mesh.creases.size()},
           {"vertices_above_base", share.vertices},
           {"normal_vertices", share.normal},
           {"normal_exceptions", share.exceptions},
           {"boundary_vertices", share.boundary},
+          {"crease_vertices", share.creased},
           {"normal_percent", share.percent()}};
 }
 

@@ -33,6 +33,7 @@ int run_remesh(const RemeshArguments& options, Context& context) {
                          {"faces", result.base_faces.size() << (2 * result.level)},
                          {"base_vertices", result.base_vertices},
                          {"base_faces", result.base_faces.size()},
+                         {"crease_edges", result.creases.size()},
                          {"output", options.output}});
   return 0;
 }

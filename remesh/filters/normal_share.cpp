@@ -19,7 +19,7 @@ NormalShare normal_share(const SemiregularMesh& mesh) {
     for (int e = 0; e < level.edge_count(); ++e) {
       ++share.vertices;
       if (level.sharp(e)) {
-        ++share.boundary;
+        ++(level.on_boundary(e) ? share.boundary : share.creased);
         continue;
       }
       const int vertex = level.vertex_count + e;

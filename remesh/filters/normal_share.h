@@ -8,10 +8,11 @@ namespace gsp {
 struct NormalShare {
   int vertices = 0;    ///< above the base
   int boundary = 0;    ///< of these on the boundary, whatever their details
+  int creased = 0;     ///< and on creases
   int normal = 0;      ///< of the others: no tangential part
   int exceptions = 0;  ///< the rest
 
-  /// Of the vertices that are not on the boundary, in percent; 100 where there are none.
+  /// Of the vertices that are on neither, in percent; 100 where there are none.
   double percent() const { return normal + exceptions > 0 ? 100.0 * normal / (normal + exceptions) : 100.0; }
 };
 

@@ -8,6 +8,8 @@
 #include "mesh/io.h"
 #include "mesh/read_file.h"
 #include "mesh/shapes.h"
+#include "param/map/param_file.h"
+#include "support/exact_maps.h"
 #include "temporary_folder.h"
 
 using namespace gsp;
@@ -315,4 +317,22 @@ TEST_CASE("equal surfaces have an infinite PSNR: null in JSON, with the reason")
   CHECK(report["psnr_db_reason"].get<std::string>().find("exactly") != std::string::npos);
   CHECK(report["mpeg_d1"]["db"].is_null());
   CHECK(report["mpeg_d2"]["db_reason"].is_string());
+}
+
+TEST_CASE("creases go through remeshing, coding and decoding, and are counted on the way") {
+  const TemporaryFolder folder;
+  const std::string map = folder.file("map.param.ply"), remeshed = folder.file("r.sr.ply"),
+                    stream = folder.file("c.pgc"), decoded = folder.file("d.sr.ply");
+  Parameterization octahedron = exact_maps::quadrisected(shapes::octahedron(), 2);
+  const Triangle& t = octahedron.base.faces[0];
+  octahedron.base.creases = {{std::min(t[0], t[1]), std::max(t[0], t[1])}};
+  write_parameterization(map, octahedron);
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"remesh", map, "-o", remeshed, "--json"},
+                                                  {"encode", remeshed, "-o", stream, "--json"},
+                                                  {"decode", stream, "-o", decoded, "--json"},
+                                                  {"info", decoded, "--json"}}) {
+    const Ran ran = gsp_run(command);
+    REQUIRE(ran.status == 0);
+    CHECK(json::parse(ran.out)["crease_edges"] == 1);
+  }
 }

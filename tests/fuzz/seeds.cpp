@@ -6,7 +6,7 @@
 #include "coder/codec.h"
 #include "mesh/io.h"
 #include "remesh/semiregular_file.h"
-#include "tests/coder/sample_meshes.h"
+#include "tests/coder/crease_meshes.h"
 
 using namespace gsp;
 
@@ -25,8 +25,9 @@ std::string contents(const std::filesystem::path& path) {
 void decoder_seeds(const std::filesystem::path& folder) {
   Progress silent;
   int number = 0;
-  for (const SemiregularMesh& mesh : {samples::noise(shapes::tetrahedron(), 2), samples::bumpy_sphere(1),
-                                      samples::wavy_sheet(1), samples::noise(shapes::torus(4, 3), 0)})
+  for (const SemiregularMesh& mesh :
+       {samples::noise(shapes::tetrahedron(), 2), samples::bumpy_sphere(1), samples::wavy_sheet(1),
+        samples::noise(shapes::torus(4, 3), 0), samples::creased_cube(2, 0.2), samples::lens(1)})
     for (Wavelet wavelet : kWavelets) {
       EncodeOptions options;
       options.wavelet = wavelet;
@@ -51,6 +52,9 @@ void mesh_seeds(const std::filesystem::path& folder) {
       write_mesh(path, mesh.mesh());
     write(path, static_cast<char>(format) + contents(path));
   }
+  const std::filesystem::path creased = folder / "seed-creased.sr.ply";
+  write_semiregular(creased, samples::creased_cube(1));
+  write(creased, static_cast<char>(4) + contents(creased));
 }
 
 }  // namespace
