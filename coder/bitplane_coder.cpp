@@ -276,8 +276,14 @@ class BitplaneCoder {
     if (at.parent[n] >= 0) at.lane.children[at.parent[n]] += bit;
   }
 
+  /// Of a node's component, what it is like: 0 along the normal, 1, 2 along the surface; of a crease 3 across the
+  /// curve, where both sides bend away, and 4 along it.
+  int kind(int n, int c) const { return !forest_.creased[n] ? c : c == 1 ? 4 : 3; }
+  /// The same with 1 for both components along the surface.
+  static int merged(int kind) { return kind == 0 ? 0 : std::max(kind - 1, 1); }
+
   bool find_significant(int plane, const Scene& at, int n) {
-    const int c = at.c, tangential = c != 0;
+    const int c = at.c, what = kind(n, c), set = merged(what);
     std::uint64_t rings = 0;
     for (int w : at.neighbours[n]) rings += at.lane.ring[w];
     const std::uint64_t around = at.lane.ring[n];
@@ -290,9 +296,9 @@ class BitplaneCoder {
     side_.count_as(&BitplaneParts::Component::significance, c);
     const bool bit = significance_model_.decide(
         side_, actual_ && (actual_->details[c].magnitude[n] >> plane & 1),
-        {tuple_index(c, 3, plane, 32, at.level, kLevels), tuple_index(tangential, 2, fine, 24, at.level, kLevels),
-         tuple_index(c, 3, w, 10, cross, 10)},
-        tangential);
+        {tuple_index(what, kKinds, plane, 32, at.level, kLevels), tuple_index(set, kSets, fine, 24, at.level, kLevels),
+         tuple_index(what, kKinds, w, 10, cross, 10)},
+        set);
     side_.note_significance(c, n);
     if (!bit) return false;
     side_.count_as(&BitplaneParts::Component::signs, c);
@@ -311,7 +317,7 @@ class BitplaneCoder {
   }
 
   bool find_descendants(int plane, const Scene& at, int n) {
-    const int c = at.c, tangential = c != 0, o = c == 0 ? 1 : 0, q = 3 - c - o;
+    const int c = at.c, set = merged(kind(n, c)), o = c == 0 ? 1 : 0, q = 3 - c - o;
     const int p = octave(at.parent_magnitude(n), plane, 6);
     int open_neighbours = 0;
     for (int w : at.neighbours[n])
@@ -322,9 +328,9 @@ class BitplaneCoder {
     side_.count_as(&BitplaneParts::Component::trees, c);
     return descendants_model_.decide(
         side_, actual_ && largest_[n][c] >> plane != 0,
-        {tuple_index(tangential, 2, open_neighbours, 5, open_components, 3, octave(others, plane, 4), 4),
-         tuple_index(tangential, 2, p, 6, at.level, kLevels)},
-        tangential);
+        {tuple_index(set, kSets, open_neighbours, 5, open_components, 3, octave(others, plane, 4), 4),
+         tuple_index(set, kSets, p, 6, at.level, kLevels)},
+        set);
   }
 
   const EdgeForest& forest_;
@@ -351,9 +357,10 @@ class BitplaneCoder {
   static constexpr int kPlanesPerUrgency = 2, kLastUrgency = kMaxUrgency + 8 * kPassesPerPlane;
   static constexpr int kLevels = kMaxSubdivisionLevel + 1;
   MixedModel<1, 16, 16 * 8, 32, 8 * 32> base_model_;
-  MixedModel<2, 3 * 32 * kLevels, 2 * 24 * kLevels, 3 * 10 * 10> significance_model_;
+  static constexpr int kKinds = 5, kSets = 4;
+  MixedModel<kSets, kKinds * 32 * kLevels, kSets * 24 * kLevels, kKinds * 10 * 10> significance_model_;
   MixedModel<1, 5 * 8, 5 * 8> refinement_model_;
-  MixedModel<2, 2 * 5 * 3 * 4, 2 * 6 * kLevels> descendants_model_;
+  MixedModel<kSets, kSets * 5 * 3 * 4, kSets * 6 * kLevels> descendants_model_;
 };
 
 }  // namespace
