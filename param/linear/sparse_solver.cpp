@@ -4,6 +4,9 @@
 
 #ifdef GSP_SUITESPARSE
 #include <dlfcn.h>
+#include <sys/mman.h>
+
+#include <new>
 
 #include <Eigen/CholmodSupport>
 #include <Eigen/UmfPackSupport>
@@ -43,15 +46,29 @@ class Setting {
   void (*set_)(int);
 };
 
+/// OpenBLAS 0.3.21 maps 128 MiB for each call that runs beside others, and asks for ever where the system refuses.
+constexpr std::size_t kBlasMemory = std::size_t{144} << 20;
+
+void require_address_space(std::size_t bytes) {
+  void* const room = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (room == MAP_FAILED) throw std::bad_alloc();
+  munmap(room, bytes);
+}
+
 /// While one lives, solvers use this thread alone. A threaded BLAS sums in an order that depends on the number of
 /// threads; results must not. CHOLMOD's own threads make loops that are too short for them, and take a fifth of its
 /// time. OpenBLAS has one number of threads for the process: the first that begins sets it and the last that ends puts
-/// back what was there. OpenMP's setting is the calling thread's own.
+/// back what was there. OpenMP's setting is the calling thread's own. Throws std::bad_alloc where the BLAS would have
+/// no room.
 class OneSolverThread {
  public:
   OneSolverThread() {
     {
       const std::lock_guard<std::mutex> lock(mutex());
+      if (alive_ == most_alive_) {  // those before have their memory, or are about to take it
+        require_address_space((alive_ + 1) * kBlasMemory);
+        ++most_alive_;
+      }
       if (alive_++ == 0) blas_before_ = blas().exchange(1);
     }
     levels_before_ = levels().exchange(0);
@@ -77,7 +94,7 @@ class OneSolverThread {
     static std::mutex mutex;
     return mutex;
   }
-  static inline int alive_ = 0, blas_before_ = 1;
+  static inline int alive_ = 0, most_alive_ = 0, blas_before_ = 1;
   int levels_before_ = 0;
 };
 #else
