@@ -240,23 +240,31 @@ class Renaming {
 
 std::array<int, 2> ascending(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// Creases of the base, after its faces. `named`: those of the encoder in the coded numbering.
+/// Creases of a base, after its faces, and their corners. `base` names those of the encoder and receives the decoder's.
 template <class Side>
-Creases code_creases(const CodedBase& base, Side& side, const Creases& named) {
-  const SubdivisionLevel level = base_level(base.vertices, base.faces, named);
+void code_creases(CodedBase& base, Side& side) {
+  const SubdivisionLevel level = base_level(base.vertices, base.faces, base.creases, base.corners);
   const std::vector<char> found = CreaseCoder<Side>(level, side).run(level.creased);
-  Creases creases;
+  base.creases.clear();
   for (int e = 0; e < level.edge_count(); ++e)
-    if (found[e]) creases.push_back(ascending(level.edges[e][0], level.edges[e][1]));
-  std::sort(creases.begin(), creases.end());
-  return creases;
+    if (found[e]) base.creases.push_back(ascending(level.edges[e][0], level.edges[e][1]));
+  std::sort(base.creases.begin(), base.creases.end());
+
+  const std::vector<VertexFan> actual = vertex_fans(level);
+  const std::vector<VertexFan> fans = vertex_fans(base_level(base.vertices, base.faces, base.creases));
+  AdaptiveBit bent = expecting(0.2);
+  base.corners.clear();
+  for (int v = 0; v < base.vertices; ++v)
+    if (fans[v].crease_count == 2 && fans[v].sharp_count == 2 && side.decide(actual[v].bent, bent))
+      base.corners.push_back(v);
 }
 
 [[noreturn]] void refuse() { throw Error(Cause::BadStream, "the base connectivity of the coded mesh is damaged"); }
 
 }  // namespace
 
-CodedBase encode_connectivity(const std::vector<Triangle>& faces, Bytes& out, const Creases& creases) {
+CodedBase encode_connectivity(const std::vector<Triangle>& faces, Bytes& out, const Creases& creases,
+                              const std::vector<int>& corners) {
   Writer writer(out);
   ConnectivityCoder<Writer> coder(writer);
   Renaming names(faces);
@@ -292,10 +300,11 @@ CodedBase encode_connectivity(const std::vector<Triangle>& faces, Bytes& out, co
   names.base.vertices = surface.vertex_count();
   names.base.faces = std::move(surface.faces);
   if (!creases.empty()) {
-    Creases named;
-    for (const auto& [a, b] : creases) named.push_back(ascending(names.coded(a), names.coded(b)));
-    std::sort(named.begin(), named.end());
-    names.base.creases = code_creases(names.base, writer, named);
+    for (const auto& [a, b] : creases) names.base.creases.push_back(ascending(names.coded(a), names.coded(b)));
+    for (int v : corners) names.base.corners.push_back(names.coded(v));
+    std::sort(names.base.creases.begin(), names.base.creases.end());
+    std::sort(names.base.corners.begin(), names.base.corners.end());
+    code_creases(names.base, writer);
   }
   writer.finish();
   return std::move(names.base);
@@ -329,7 +338,7 @@ CodedBase decode_connectivity(int face_count, bool creased, const std::uint8_t* 
     CodedBase base;
     base.vertices = surface.vertex_count();
     base.faces = std::move(surface.faces);
-    if (creased) base.creases = code_creases(base, reader, {});
+    if (creased) code_creases(base, reader);
     return base;
   } catch (const StreamEnd&) {
     refuse();

@@ -14,6 +14,7 @@ struct CodedBase {
   int vertices = 0;
   std::vector<Triangle> faces;     ///< vertices numbered by first appearance
   Creases creases;                 ///< of these vertices
+  std::vector<int> corners;        ///< those at which a crease bends
   std::vector<int> source_vertex;  ///< #V, index in the encoder's input
   std::vector<int> source_face;    ///< #F, index in the encoder's input
   std::vector<int> source_corner;  ///< #F, corner of that face which is corner 0 here
@@ -24,7 +25,8 @@ struct CodedBase {
 /// uncertain (Touma and Gotsman 1998 in spirit; handles, boundaries and several components need no special case). O(F).
 /// Faces and creases must have passed `base_level`. Vertices without a face are lost. Creases, if there are any, follow
 /// (base_creases.h).
-CodedBase encode_connectivity(const std::vector<Triangle>& faces, Bytes& out, const Creases& creases = {});
+CodedBase encode_connectivity(const std::vector<Triangle>& faces, Bytes& out, const Creases& creases = {},
+                              const std::vector<int>& corners = {});
 
 /// Reads `face_count` faces back from [begin, end), and creases where `creased`; `source_*` stay empty. Takes memory in
 /// proportion to the faces that the bytes really hold. Throws Error(BadStream).

@@ -40,7 +40,7 @@ void check(const SemiregularMesh& mesh, const EncodeOptions& options) {
   if (mesh.base_faces.empty()) throw Error(Cause::NoFaces, "a mesh without base faces cannot be coded");
   require_computable(mesh.positions);
   std::vector<bool> used(mesh.base_vertices, false);
-  for (const Triangle& t : base_level(mesh.base_vertices, mesh.base_faces, mesh.creases).faces)
+  for (const Triangle& t : base_level(mesh.base_vertices, mesh.base_faces, mesh.creases, mesh.corners).faces)
     for (int v : t) used[v] = true;
   for (int v = 0; v < mesh.base_vertices; ++v)
     if (!used[v]) throw Error(Cause::Malformed, "a base vertex belongs to no face", Element::Vertex, v);
@@ -81,7 +81,8 @@ void drop_tangential(const EdgeForest& forest, BitplaneCoefficients& integers) {
 /// The levels whose edges carry details of a mesh of `level`.
 std::vector<SubdivisionLevel> detail_levels(const StreamHeader& header, int level) {
   if (level == 0) return {};
-  return subdivision_levels(header.base.vertices, header.base.faces, level - 1, header.base.creases);
+  return subdivision_levels(header.base.vertices, header.base.faces, level - 1, header.base.creases,
+                            header.base.corners);
 }
 
 /// Everything that encoder and decoder derive from the header and the level that they go to.
@@ -204,7 +205,7 @@ struct Source {
     header.wavelet = options.wavelet;
     header.tangential_ratio = options.tangential_ratio;
     header.level = mesh.level;
-    header.base = encode_connectivity(mesh.base_faces, connectivity, mesh.creases);
+    header.base = encode_connectivity(mesh.base_faces, connectivity, mesh.creases, mesh.corners);
     return header;
   }
 };
@@ -325,6 +326,7 @@ SemiregularMesh decode(const Bytes& stream, std::size_t budget) {
   mesh.base_vertices = header.base.vertices;
   mesh.base_faces = header.base.faces;
   mesh.creases = header.base.creases;
+  mesh.corners = header.base.corners;
   mesh.positions = structure.reconstruct(known, mesh.level, header, [](const std::vector<Vec3>&) {});
   return mesh;
 }

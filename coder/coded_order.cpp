@@ -50,6 +50,7 @@ SemiregularMesh in_coded_order(const SemiregularMesh& mesh, const CodedBase& bas
   coded.base_vertices = base.vertices;
   coded.base_faces = base.faces;
   coded.creases = base.creases;
+  coded.corners = base.corners;
   for (int v : coded_vertex_order(mesh, base)) coded.positions.push_back(mesh.positions[v]);
   if (!mesh.control) return coded;
   coded.control = ControlMesh{{}, mesh.control->grid};

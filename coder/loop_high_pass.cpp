@@ -146,6 +146,9 @@ class HighPass : public TapFilter<HighPass> {
   /// A detail beside a crease does not move it, and one of a crease neither its corners nor its ends: creases are
   /// curves of their own, the same whatever the surface on either side does.
   void leave_creases(Column& column) const {
+    // Between two creases the even taps that are left would have to be large to make up for those at the ends.
+    const auto [a, b] = level_.edges[column.edge];
+    if (!level_.creased[column.edge] && fans_[a].on_crease() && fans_[b].on_crease()) column.size = 1;
     const auto left_out = [&](const Column::Tap& tap) {
       const int v = tap.to, inserted_on = v - level_.vertex_count;
       if (level_.creased[column.edge]) return inserted_on < 0 && !fans_[v].on_curve();

@@ -11,6 +11,7 @@
 #include "param/map/development.h"
 #include "remesh/chart_samples.h"
 #include "remesh/closest_fit.h"
+#include "remesh/crease_corners.h"
 #include "remesh/displaced/displaced_remesh.h"
 #include "remesh/displaced/fit_target.h"
 #include "remesh/fit_positions.h"
@@ -90,9 +91,11 @@ NormalRemesh normal(const Parameterization& map, const std::vector<std::vector<F
   return made;
 }
 
-SemiregularMesh semiregular(const Parameterization& map, int level, std::vector<Vec3> positions) {
+SemiregularMesh semiregular(const Parameterization& map, int level, std::vector<Vec3> positions,
+                            std::vector<int> corners) {
   SemiregularMesh mesh{level, map.base.vertex_count(), map.base.faces, std::move(positions)};
   mesh.creases = map.base.creases;
+  mesh.corners = std::move(corners);
   return mesh;
 }
 
@@ -147,6 +150,9 @@ class Remesher {
     }
   }
 
+  /// Of the creases, once all points are there.
+  void find_corners() { finest_.corners = crease_corners(finest_, map_.base.vertex_count(), positions_); }
+
   int gaps() const {
     int sum = 0;
     for (int gap : gaps_) sum += gap;
@@ -163,7 +169,7 @@ class Remesher {
     positions_ = fit_closest(finest_, guard, std::move(samples), effort, fit_->fit(positions_));
   }
 
-  SemiregularMesh take() { return semiregular(map_, level_, std::move(positions_)); }
+  SemiregularMesh take() { return semiregular(map_, level_, std::move(positions_), finest_.corners); }
 
  private:
   /// The position of a sample. Throws where the chart has none.
@@ -282,12 +288,14 @@ SemiregularMesh remesh(const Parameterization& map, const RemeshOptions& options
   const std::vector<std::vector<FacePiece>> pieces = pieces_by_chart(map);
   progress.report("remesh", 0.3);
   if (options.kind == RemeshKind::Normal || options.kind == RemeshKind::VariationalNormal) {
-    const auto levels = subdivision_levels(map.base.vertex_count(), map.base.faces, level, map.base.creases);
+    auto levels = subdivision_levels(map.base.vertex_count(), map.base.faces, level, map.base.creases);
     NormalRemesh made = normal(map, pieces, levels, options, progress);
+    const std::vector<int> corners = crease_corners(levels.back(), map.base.vertex_count(), made.positions);
+    for (SubdivisionLevel& l : levels) l.corners = corners;
     if (options.kind == RemeshKind::VariationalNormal || options.positions != Positions::Sampled)
       made.positions = fitted(map, levels, options, made, progress);
     progress.report("remesh", 1.0);
-    return semiregular(map, level, std::move(made.positions));
+    return semiregular(map, level, std::move(made.positions), corners);
   }
   Remesher remesher(map, level, options.positions);
   parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -295,6 +303,7 @@ SemiregularMesh remesh(const Parameterization& map, const RemeshOptions& options
   });
   progress.report("remesh", 0.9);
   remesher.merge_borders();
+  remesher.find_corners();
   if (remesher.gaps() > 0)
     progress.note(std::to_string(remesher.gaps()) +
                   " points of the remesh lie in no face of the map, which has folds; the nearest place was taken");

@@ -51,9 +51,23 @@ void mark_creases(SubdivisionLevel& level, const std::unordered_map<std::uint64_
   }
 }
 
+void mark_corners(SubdivisionLevel& level, const std::vector<int>& corners) {
+  if (corners.empty()) return;
+  const std::vector<VertexFan> fans = vertex_fans(level);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const int v = corners[i];
+    const bool known = v >= 0 && v < level.vertex_count && (i == 0 || corners[i - 1] < v);
+    if (!known || fans[v].sharp_count != 2 || fans[v].crease_count != 2)
+      throw Error(Cause::Malformed, "a corner of a crease is no vertex of two creases, or not in ascending order",
+                  Element::Vertex, v);
+  }
+  level.corners = corners;
+}
+
 }  // namespace
 
-SubdivisionLevel base_level(int base_vertices, const std::vector<Triangle>& base_faces, const Creases& creases) {
+SubdivisionLevel base_level(int base_vertices, const std::vector<Triangle>& base_faces, const Creases& creases,
+                            const std::vector<int>& corners) {
   SubdivisionLevel level;
   level.vertex_count = base_vertices;
   level.faces = base_faces;
@@ -77,6 +91,7 @@ SubdivisionLevel base_level(int base_vertices, const std::vector<Triangle>& base
     }
   }
   mark_creases(level, known, creases);
+  mark_corners(level, corners);
   return level;
 }
 
@@ -91,6 +106,7 @@ std::vector<VertexFan> vertex_fans(const SubdivisionLevel& level) {
       ++fan.sharp_count;
       fan.crease_count += level.creased[e];
     }
+  for (int v : level.corners) fans[v].bent = true;
   return fans;
 }
 
@@ -133,18 +149,19 @@ SubdivisionLevel subdivide(const SubdivisionLevel& coarse) {
     side(4 * f + 3, 1, inner(2));
     side(4 * f + 3, 2, inner(0));
   }
+  fine.corners = coarse.corners;
   for (int half = 0; half < 2 * edges; ++half) fine.creased[number[half]] = coarse.creased[half / 2];
   return fine;
 }
 
 std::vector<SubdivisionLevel> subdivision_levels(int base_vertices, const std::vector<Triangle>& base_faces, int level,
-                                                 const Creases& creases) {
+                                                 const Creases& creases, const std::vector<int>& corners) {
   if (level < 0 || level > kMaxSubdivisionLevel)
     throw Error(Cause::BadOption,
                 "subdivision level " + std::to_string(level) + " is not in 0.." + std::to_string(kMaxSubdivisionLevel));
   std::vector<SubdivisionLevel> levels;
   levels.reserve(level + 1);
-  levels.push_back(base_level(base_vertices, base_faces, creases));
+  levels.push_back(base_level(base_vertices, base_faces, creases, corners));
   for (int l = 0; l < level; ++l) levels.push_back(subdivide(levels.back()));
   return levels;
 }
@@ -156,7 +173,7 @@ Mesh SemiregularMesh::mesh() const {
 }
 
 std::vector<SubdivisionLevel> SemiregularMesh::levels() const {
-  return subdivision_levels(base_vertices, base_faces, level, creases);
+  return subdivision_levels(base_vertices, base_faces, level, creases, corners);
 }
 
 }  // namespace gsp

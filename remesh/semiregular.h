@@ -23,6 +23,7 @@ struct SubdivisionLevel {
   std::vector<std::array<int, 3>> face_edges;  ///< #F, edge of corners (0,1), (1,2), (2,0)
   std::vector<std::array<int, 2>> edge_faces;  ///< #E, the one or two faces; second is -1 on a boundary
   std::vector<char> creased;                   ///< #E, whether the edge is a crease or a part of one
+  std::vector<int> corners;                    ///< base vertices at which a crease bends, ascending
 
   int edge_count() const { return static_cast<int>(edges.size()); }
   int face_count() const { return static_cast<int>(faces.size()); }
@@ -57,14 +58,15 @@ struct VertexFan {
   int valence = 0;
   int sharp_count = 0;                        ///< edges of the boundary and creases
   int crease_count = 0;                       ///< those of them that are creases
+  bool bent = false;                          ///< two creases meet at an angle here
   std::array<int, 2> sharp_edges = {-1, -1};  ///< the first two sharp ones
 
   bool regular() const { return valence == 6 && sharp_count == 0; }
   /// In the surface, not on a curve: no sharp edge ends here, or a single crease (a dart; Hoppe et al. 1994, "Piecewise
   /// smooth surface reconstruction").
   bool inside() const { return sharp_count < 2; }
-  /// On a boundary or crease that passes through. A vertex of more sharp edges is a corner.
-  bool on_curve() const { return sharp_count == 2; }
+  /// On a boundary or crease that passes through smoothly. Other vertices of more than one sharp edge are corners.
+  bool on_curve() const { return sharp_count == 2 && !bent; }
   /// On a crease or its corner, which no detail of the surface beside it moves.
   bool on_crease() const { return crease_count > 0 && sharp_count > 1; }
   /// The sharp edge that continues the sharp edge `e` beyond this vertex; -1 where a crease ends. (Boundaries that meet
@@ -79,8 +81,10 @@ std::vector<VertexFan> vertex_fans(const SubdivisionLevel& level);
 inline constexpr int kMaxSubdivisionLevel = 10;
 
 /// The base level. Throws Error: IndexOutOfRange, DegenerateFace, NonManifoldEdge, InconsistentOrientation, each with
-/// the face; Malformed where `creases` are not ascending pairs of edges inside, with the edge. O(F).
-SubdivisionLevel base_level(int base_vertices, const std::vector<Triangle>& base_faces, const Creases& creases = {});
+/// the face; Malformed where `creases` are not ascending pairs of edges inside, with the edge, or `corners` not
+/// ascending vertices of two creases and no other sharp edge, with the vertex. O(F).
+SubdivisionLevel base_level(int base_vertices, const std::vector<Triangle>& base_faces, const Creases& creases = {},
+                            const std::vector<int>& corners = {});
 
 /// One quadrisection. O(F), without a search: every finer edge is a half of a coarse edge, and a crease if that is, or
 /// lies inside a coarse face.
@@ -89,7 +93,7 @@ SubdivisionLevel subdivide(const SubdivisionLevel& coarse);
 /// Levels 0 (base) to `level`. Throws the errors of `base_level`, and BadOption where `level` is not in
 /// 0..kMaxSubdivisionLevel. O(total faces).
 std::vector<SubdivisionLevel> subdivision_levels(int base_vertices, const std::vector<Triangle>& base_faces, int level,
-                                                 const Creases& creases = {});
+                                                 const Creases& creases = {}, const std::vector<int>& corners = {});
 
 /// The control points of a Loop surface along whose normals the vertices of a mesh lie (displacement.h).
 struct ControlMesh {
@@ -106,6 +110,7 @@ struct SemiregularMesh {
   std::vector<Vec3> positions;
   std::optional<ControlMesh> control = {};  ///< of a displaced mesh
   Creases creases = {};
+  std::vector<int> corners = {};  ///< base vertices at which a crease bends, ascending (crease_corners.h)
 
   /// The finest level as a plain mesh.
   Mesh mesh() const;

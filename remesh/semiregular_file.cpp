@@ -79,7 +79,14 @@ PlyElement ply_control(const ControlMesh& control) {
   return element;
 }
 
+constexpr const char* kCorner = "base_vertex";
 constexpr std::array<const char*, 2> kCreaseEnds = {"base_vertex_0", "base_vertex_1"};
+
+PlyElement ply_corners(const std::vector<int>& corners) {
+  return {"crease_corner",
+          corners.size(),
+          {{kCorner, PlyType::Int32, {}, std::vector<double>(corners.begin(), corners.end()), {}}}};
+}
 
 PlyElement ply_creases(const Creases& creases) {
   PlyElement element{"crease", creases.size(), {}};
@@ -90,7 +97,19 @@ PlyElement ply_creases(const Creases& creases) {
   return element;
 }
 
-/// That they are base edges is for `base_level` to check.
+/// One column of indices of vertices. That they are what they should be is for `base_level` to check.
+std::vector<int> read_vertices(const std::string& path, const PlyElement& element, const char* name) {
+  const PlyProperty* property = element.scalar(name);
+  if (!property) throw Error(Cause::Malformed, path + ": creases without " + name);
+  std::vector<int> vertices;
+  for (double v : property->values) {
+    if (!(v >= 0.0 && v <= std::numeric_limits<int>::max()))
+      throw Error(Cause::Malformed, path + ": a crease ends at no vertex");
+    vertices.push_back(static_cast<int>(v));
+  }
+  return vertices;
+}
+
 Creases read_creases(const std::string& path, const PlyDocument& document, int count) {
   const PlyElement* element = document.find("crease");
   if (!element || element->count != static_cast<std::size_t>(count))
@@ -98,14 +117,8 @@ Creases read_creases(const std::string& path, const PlyDocument& document, int c
                 path + ": the comments name " + std::to_string(count) + " creases, not as many as are there");
   Creases creases(element->count);
   for (int k = 0; k < 2; ++k) {
-    const PlyProperty* property = element->scalar(kCreaseEnds[k]);
-    if (!property) throw Error(Cause::Malformed, path + ": creases without " + kCreaseEnds[k]);
-    for (std::size_t i = 0; i < creases.size(); ++i) {
-      const double end = property->values[i];
-      if (!(end >= 0.0 && end <= std::numeric_limits<int>::max()))
-        throw Error(Cause::Malformed, path + ": a crease ends at no vertex");
-      creases[i][k] = static_cast<int>(end);
-    }
+    const std::vector<int> ends = read_vertices(path, *element, kCreaseEnds[k]);
+    for (std::size_t i = 0; i < creases.size(); ++i) creases[i][k] = ends[i];
   }
   return creases;
 }
@@ -132,6 +145,7 @@ void write_with_elements(const std::string& path, const SemiregularMesh& mesh, s
   if (!mesh.creases.empty()) {
     comments.push_back("creases " + std::to_string(mesh.creases.size()));
     more.push_back(ply_creases(mesh.creases));
+    if (!mesh.corners.empty()) more.push_back(ply_corners(mesh.corners));
   }
   if (mesh.control) {
     std::ostringstream grid;
@@ -192,7 +206,9 @@ SemiregularMesh read_semiregular(const std::string& path) {
   const PlyDocument document = read_ply(path);
   if (counts->creases != 0) {
     mesh.creases = read_creases(path, document, counts->creases);
-    base_level(mesh.base_vertices, mesh.base_faces, mesh.creases);
+    if (const PlyElement* corners = document.find("crease_corner"))
+      mesh.corners = read_vertices(path, *corners, kCorner);
+    base_level(mesh.base_vertices, mesh.base_faces, mesh.creases, mesh.corners);
   }
   if (counts->control_grid) {
     mesh.control = read_control(path, document, *counts->control_grid);

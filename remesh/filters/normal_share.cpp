@@ -10,7 +10,7 @@ NormalShare normal_share(const SemiregularMesh& mesh) {
   double extent = 0.0;
   for (const Vec3& p : mesh.positions) extent = std::max(extent, (p - mesh.positions[0]).cwiseAbs().maxCoeff());
   NormalShare share;
-  SubdivisionLevel level = base_level(mesh.base_vertices, mesh.base_faces, mesh.creases);
+  SubdivisionLevel level = base_level(mesh.base_vertices, mesh.base_faces, mesh.creases, mesh.corners);
   for (int l = 0; l < mesh.level; ++l) {
     const std::vector<Vec3> coarse(mesh.positions.begin(), mesh.positions.begin() + level.vertex_count);
     std::vector<Vec3> predicted(level.vertex_count + level.edges.size(), Vec3::Zero());

@@ -109,4 +109,15 @@ inline SemiregularMesh lens(int level) {
   return mesh;
 }
 
+/// Two flat squares glued along their sides, a crease that bends in its four corners.
+inline SemiregularMesh pillow(int level) {
+  Mesh base;
+  base.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  base.faces = {{0, 1, 2}, {0, 2, 3}, {1, 0, 3}, {1, 3, 2}};
+  SemiregularMesh mesh = refine(base, level, [](const Vec3& p) { return p; });
+  crease(mesh, [](const Vec3& a, const Vec3& b) { return (a - b).squaredNorm() < 1.5; });
+  mesh.corners = {0, 1, 2, 3};
+  return mesh;
+}
+
 }  // namespace gsp::samples

@@ -169,6 +169,25 @@ TEST_CASE("a flat-sided body has no details where its edges are creases, whateve
   }
 }
 
+TEST_CASE("a crease that bends in its corners alone has no details, and streams hold the corners") {
+  const SemiregularMesh pillow = samples::pillow(4);
+  REQUIRE(pillow.corners.size() == 4);
+  for (Wavelet wavelet : kWavelets) {
+    INFO(wavelet_name(wavelet));
+    for (const auto& details : analyse(pillow, wavelet).details) CHECK(largest(details) < 1e-11);
+    SemiregularMesh round = pillow;
+    round.corners.clear();
+    CHECK(largest(analyse(round, wavelet).details[0]) > 0.01);
+    EncodeOptions options;
+    options.wavelet = wavelet;
+    const Bytes stream = encode(pillow, options, quiet);
+    const SemiregularMesh decoded = decode(stream, stream.size());
+    CHECK(decoded.corners.size() == 4);
+    for (int v : decoded.corners)
+      CHECK((decoded.positions[v] - Vec3(0.5, 0.5, 0)).norm() == Approx(std::sqrt(0.5)).margin(1e-3));
+  }
+}
+
 TEST_CASE("what lies on one side of a crease moves neither the crease nor what lies on the other") {
   const auto dented = [](const Vec3& p) {
     return Vec3(p + 0.2 * std::sin(5 * p.x()) * std::cos(7 * p.z()) * Vec3(p.x(), p.y(), 0.0));

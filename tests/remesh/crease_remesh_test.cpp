@@ -142,6 +142,17 @@ TEST_CASE("the end of a crease, and where creases meet, stays where the surface 
   CHECK(corners > 0);
 }
 
+TEST_CASE("a crease that turns at once has a corner there, which stays, and one that goes around has none") {
+  const Equator square, round = lens(0.5, 0.5);
+  for (RemeshKind kind : {RemeshKind::Parametric, RemeshKind::Normal}) {
+    const SemiregularMesh mesh = remeshed(square.map, kind, Positions::Fitted, 3);
+    CHECK(mesh.corners.size() == 4);
+    if (kind == RemeshKind::Parametric)
+      for (int v : mesh.corners) CHECK(mesh.positions[v] == square.map.surface.positions[square.map.base.vertices[v]]);
+    CHECK(remeshed(round.map, kind, Positions::Sampled, 3).corners.empty());
+  }
+}
+
 TEST_CASE("the walk to the nearest place ends at a crease") {
   const std::vector<Triangle> faces = {{0, 1, 2}, {1, 0, 3}};
   const std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

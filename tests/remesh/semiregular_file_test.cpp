@@ -80,5 +80,17 @@ TEST_CASE("creases come back with a semi-regular file, and those that are no bas
   CHECK(with({{b, a}}) == Cause::Malformed);
   CHECK(with({{0, 1000}}) == Cause::Malformed);
   CHECK(with({{-1, 0}}) == Cause::Malformed);
+
+  mesh.creases.clear();
+  for (const auto& ends : mesh.levels()[0].edges)
+    if (std::min(ends[0], ends[1]) == 0 && mesh.creases.size() < 2)
+      mesh.creases.push_back({0, std::max(ends[0], ends[1])});
+  std::sort(mesh.creases.begin(), mesh.creases.end());
+  mesh.corners = {0};
+  write_semiregular(path, mesh);
+  CHECK(read_semiregular(path).corners == mesh.corners);
+  mesh.corners = {mesh.creases[0][1]};
+  write_semiregular(path, mesh);
+  CHECK(cause_of([&] { read_or_recover(path); }) == Cause::Malformed);
   std::filesystem::remove(path);
 }

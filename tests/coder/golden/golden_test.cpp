@@ -64,6 +64,9 @@ std::vector<Golden> golden_streams() {
   all.push_back({"displaced-sheet.pgc", samples::displaced(shapes::grid(3, 4), 3), {Wavelet::ButterflyLifted, 14}});
   all.push_back({"displaced-loop.pgc", samples::displaced(shapes::icosahedron(), 3), {Wavelet::Loop, 14}});
   all.push_back({"creases-cylinder.pgc", samples::cylinder(6, 3), {Wavelet::Loop, 14}});
+  SemiregularMesh bent = samples::cylinder(5, 3);
+  bent.corners = {bent.creases.front()[0], bent.creases.back()[1]};
+  all.push_back({"creases-corners.pgc", bent, {Wavelet::Loop11, 14}});
   all.push_back({"creases-lens.pgc", samples::lens(4), {Wavelet::ButterflyLifted, 14}});
   all.push_back({"creases-cube-fixed.pgc", samples::creased_cube(4, 0.2), {Wavelet::Butterfly, 14}, 400});
   all.push_back({"noise-loop.pgc", samples::noise(shapes::icosahedron(), 3), options});
