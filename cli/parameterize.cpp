@@ -13,6 +13,7 @@
 #include "experiments/cells/cell_options.h"
 #include "experiments/plot/gnuplot.h"
 #include "experiments/report/cost.h"
+#include "mesh/features/feature_file.h"
 #include "param/map/param_file.h"
 
 namespace gsp::cli {
@@ -20,7 +21,7 @@ namespace gsp::cli {
 namespace {
 
 struct ParameterizeArguments {
-  std::string mesh, output, omega_csv, omega_plot;
+  std::string mesh, output, features, omega_csv, omega_plot;
   std::string method = "gsp";
   ReadOptions read;
   ParameterizeOptions parameterize = preset_options("default");
@@ -45,6 +46,7 @@ int run_parameterize(ParameterizeArguments& options, Context& context) {
   Progress progress = context.console.progress();
   options.parameterize.method = method_of(options.method);
   const SurfaceFile file = read_input(options.mesh, options.read, context);
+  if (!options.features.empty()) options.parameterize.features = read_features(options.features, file.mesh);
   const ParameterizeResult result = in_places_of(file, [&] {
     return parameterize(file.mesh, with_base_by_rate(file.mesh, options.parameterize, progress), progress);
   });
@@ -94,6 +96,9 @@ void add_parameterize(CLI::App& app, Context& context) {
   command.choice("--method", options->method, map_method_words(),
                  "the paper's map, or a baseline on the same base vertices");
   command.parameterize_options(options->parameterize);
+  command.optional_input("--features-file", options->features,
+                         "feature edges to take instead of those found: quad remeshers' *.sharp (a count, then rows of "
+                         "type,face,edge), or rows of two vertices");
   command.replicate_option(options->parameterize);
   command.optional_output("--omega-csv", options->omega_csv, Content::Csv,
                           "also write the cost of every vertex removal (figure 5d)");

@@ -40,6 +40,7 @@ class Judge {
     options_.objective = Objective::Distortion;
     options_.relaxations = 0;
     options_.base_edges = BaseEdges::Keep;
+    options_.features.reset();  // edges of the surface, which the stand-in does not have
     const double most = std::min(kLargest, mesh.vertex_count() / static_cast<double>(kFewestPerBase));
     while (size_at(last_ + 1) <= most) ++last_;
   }

@@ -25,10 +25,9 @@ struct BaseByRate {
 /// of about 2,500 faces, the surface after decimation: parameterized without corner relaxation and flips of base edges,
 /// remeshed, encoded with lifted Butterfly, decoded at 1, 2, 4 and 8 KB and measured. From 30, 60 and 120 the search
 /// climbs to the best of the ladder; sizes at which the simplification cannot arrive are passed over. Ranks of the
-/// stand-in agree with those of whole curves (bench/README.md, "The base by rate"). Of `options` gamma, mu and weights
-/// count. The same result for any number of threads. About 1 CPU s a size below 200, five to seven sizes, and the
-/// decimation. Throws Error: Cancelled, what
-/// `require_parameterizable` throws.
+/// stand-in agree with those of whole curves (bench/README.md, "The base by rate"). Of `options` gamma, mu, weights
+/// and feature_degrees count. The same result for any number of threads. About 1 CPU s a size below 200, five to seven
+/// sizes, and the decimation. Throws Error: Cancelled, what `require_parameterizable` throws.
 BaseByRate base_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress);
 
 /// The options as they are, but with the size chosen where `base_vertices` is `kBaseByRate`; `progress` notes it.

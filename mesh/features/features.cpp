@@ -17,6 +17,8 @@ namespace gsp {
 
 namespace {
 
+constexpr std::size_t kFewVertices = 6;  // of a curve, too few to tell whether it is ragged
+
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 /// Per half-edge the angle between the normals of its two faces; 0 on a boundary, and at a face without area.
@@ -179,7 +181,19 @@ std::vector<int> ends_of(const Mesh& mesh, const std::vector<FeatureCurve>& curv
   return count;
 }
 
-/// Drops curves that are unclear, but for short ones between clear ones.
+/// Length of a curve's edges over that of the steps over every two of them; 1 for a straight one.
+double raggedness(const Mesh& mesh, const FeatureCurve& curve) {
+  double edges = 0.0, steps = 0.0;
+  for (std::size_t i = 0; i + 2 < curve.vertices.size(); ++i) {
+    const Vec3 &a = mesh.positions[curve.vertices[i]], &b = mesh.positions[curve.vertices[i + 1]],
+               &c = mesh.positions[curve.vertices[i + 2]];
+    edges += (b - a).norm() + (c - b).norm();
+    steps += (c - a).norm();
+  }
+  return steps > 0.0 ? edges / steps : 1.0;
+}
+
+/// Drops curves that are unclear or ragged, but for short ones between clear ones.
 FeatureEdges clear_ones(const Mesh& mesh, const FeatureEdges& edges, const FeatureOptions& options, double shortest) {
   const std::vector<double> clarity = clarities_of(mesh, edges);
   std::vector<FeatureCurve> clear, unclear;
@@ -190,7 +204,8 @@ FeatureEdges clear_ones(const Mesh& mesh, const FeatureEdges& edges, const Featu
       along.push_back(clarity[std::lower_bound(edges.begin(), edges.end(), std::array{a, b}) - edges.begin()]);
     }
     std::nth_element(along.begin(), along.begin() + along.size() / 2, along.end());
-    const bool is_clear = c.turn >= radians(options.strong) && along[along.size() / 2] >= options.clarity;
+    const bool is_clear = c.turn >= radians(options.strong) && along[along.size() / 2] >= options.clarity &&
+                          (c.vertices.size() < kFewVertices || raggedness(mesh, c) < options.ragged);
     (is_clear ? clear : unclear).push_back(std::move(c));
   }
   const std::vector<int> at = ends_of(mesh, clear);

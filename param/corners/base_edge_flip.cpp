@@ -183,15 +183,17 @@ class Flip {
 
 namespace {
 
-/// Whether a base edge joins c, which is on no boundary, and d, or another copy of d where the surface was cut.
+/// Whether a base edge joins two vertices, or where the surface was cut open, other copies of them.
 bool joined(const Atlas& atlas, int c, int d) {
-  const auto is_d = [&](int b) { return atlas.surface->seams.same(atlas.base.vertices[b], atlas.base.vertices[d]); };
-  const auto& sectors = atlas.fans[c].sectors;
-  return face_beside(atlas.base, atlas.fans, c, d) >= 0 ||
-         std::any_of(sectors.begin(), sectors.end(), [&](const BaseFan::Sector& s) {
-           const Triangle& t = atlas.base.faces[s.face];
-           return std::any_of(t.begin(), t.end(), is_d);
-         });
+  const Seams& seams = atlas.surface->seams;
+  if (!seams.any()) return face_beside(atlas.base, atlas.fans, c, d) >= 0;
+  const auto has = [&](const Triangle& t, int b) {
+    return std::any_of(t.begin(), t.end(),
+                       [&](int v) { return seams.same(atlas.base.vertices[v], atlas.base.vertices[b]); });
+  };
+  const auto& faces = atlas.base.faces;
+  return seams.same(atlas.base.vertices[c], atlas.base.vertices[d]) ||
+         std::any_of(faces.begin(), faces.end(), [&](const Triangle& t) { return has(t, c) && has(t, d); });
 }
 
 }  // namespace
@@ -205,8 +207,8 @@ std::optional<FlipSite> flip_site(const Atlas& atlas, int diagonal) {
             d = corner(Halfedges::prev(twin));
   const auto too_few = [&](int v) { return atlas.fans[v].valence() <= (atlas.fans[v].boundary ? 1 : kFewestPatches); };
   if (c == d || too_few(a) || too_few(b)) return std::nullopt;
-  if (atlas.fans[c].boundary && atlas.fans[d].boundary) return std::nullopt;
-  if (atlas.fans[c].boundary ? joined(atlas, d, c) : joined(atlas, c, d)) return std::nullopt;
+  if (!atlas.surface->seams.any() && atlas.fans[c].boundary && atlas.fans[d].boundary) return std::nullopt;
+  if (joined(atlas, c, d)) return std::nullopt;
   return FlipSite{diagonal, {a, b, c, d}, {diagonal / 3, twin / 3}};
 }
 

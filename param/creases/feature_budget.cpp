@@ -10,7 +10,7 @@ namespace gsp {
 namespace {
 
 constexpr int kClosed = 3;        // base vertices of a closed curve
-constexpr double kRoom = 0.75;    // of the base vertices asked for,
+constexpr double kRoom = 0.4;    // of the base vertices asked for,
 constexpr double kAutomatic = 8;  // or vertices of the surface for each, where the base's size is automatic
 
 void require_edges(const Mesh& mesh, const FeatureEdges& edges) {

@@ -29,6 +29,7 @@ constexpr int kAutomaticRatio = 16;  // vertices for each of the coarsest level,
 constexpr int kSmallestLevel = 1000;
 constexpr int kBatchShare = 64;  // vertices of the complex for each of those that are priced side by side
 constexpr int kBlocks = 8, kLargestBlock = 16;  // of such a batch
+constexpr double kCopyShare = 0.5;              // of the Ω of a vertex with two copies: the mean of the two sides
 constexpr int kLevelPerBase = 24;               // vertices of the coarsest level for each of the base
 
 // Largest relative change of a price from one replicate to another. A price is taken at no more than 32 points of a
@@ -128,7 +129,7 @@ OmegaRecord Simplifier::parts(int vertex) const {
 
 /// What the removal costs, by which vertices are queued: its Ω, but for a replicate's chance.
 double Simplifier::price(int vertex) const {
-  const double omega = parts(vertex).omega();
+  const double omega = (seams().other_of(vertex) < 0 ? 1.0 : kCopyShare) * parts(vertex).omega();
   if (options_.replicate == 0) return omega;
   // A generator of its own for each vertex, so that its factor does not depend on the order of the prices.
   Random random(static_cast<std::uint64_t>(options_.replicate) << 32 | static_cast<std::uint32_t>(vertex));
