@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 
 #include "coder/anchors.h"
@@ -140,9 +141,26 @@ BaseByRate base_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Pr
   return result;
 }
 
+namespace {
+
+constexpr int kVerticesPerBase = 8;  // of the surface, up to which the base grows for features
+
+/// The next sizes up to one with room for all features, which the stand-in may have lost.
+int with_room_for_features(const Mesh& mesh, ParameterizeOptions options) {
+  const int chosen = options.base_vertices;
+  while (choose_features(mesh, options).given_way > 0) {
+    options.base_vertices = static_cast<int>(std::lround(std::numbers::sqrt2 * options.base_vertices));
+    if (options.base_vertices > mesh.vertex_count() / kVerticesPerBase) return chosen;
+  }
+  return options.base_vertices;
+}
+
+}  // namespace
+
 ParameterizeOptions with_base_by_rate(const Mesh& mesh, ParameterizeOptions options, Progress& progress) {
   if (options.base_vertices != kBaseByRate) return options;
   options.base_vertices = base_by_rate(mesh, options, progress).base_vertices;
+  if (options.base_vertices != kBaseByOmega) options.base_vertices = with_room_for_features(mesh, options);
   if (options.base_vertices != kBaseByOmega)
     progress.note("by rate the base is to have " + std::to_string(options.base_vertices) + " vertices");
   return options;

@@ -30,7 +30,8 @@ struct BaseByRate {
 /// sizes, and the decimation. Throws Error: Cancelled, what `require_parameterizable` throws.
 BaseByRate base_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress);
 
-/// The options as they are, but with the size chosen where `base_vertices` is `kBaseByRate`; `progress` notes it.
+/// The options as they are, but with the size chosen where `base_vertices` is `kBaseByRate`; `progress` notes it. It is
+/// larger where the surface's features ask for more room, up to an eighth of its vertices.
 ParameterizeOptions with_base_by_rate(const Mesh& mesh, ParameterizeOptions options, Progress& progress);
 
 }  // namespace gsp
