@@ -19,7 +19,8 @@ struct FeatureCurve {
   double turn = 0.0;          ///< mean dihedral angle along it, radians
 };
 
-/// Lengths are shares of the diagonal of the surface's bounding box, >= 0.
+/// Lengths are shares of the diagonal of the surface's bounding box, >= 0. What surfaces have of each measure:
+/// bench/README.md, "Feature curves: what auto takes".
 struct FeatureOptions {
   double strong = 40.0;  ///< degrees in (0, 180), dihedral angle from which an edge starts a feature
   double weak = 30.0;    ///< degrees in (0, strong], from which it continues one at its end

@@ -29,8 +29,9 @@ constexpr int kAutomaticRatio = 16;  // vertices for each of the coarsest level,
 constexpr int kSmallestLevel = 1000;
 constexpr int kBatchShare = 64;  // vertices of the complex for each of those that are priced side by side
 constexpr int kBlocks = 8, kLargestBlock = 16;  // of such a batch
-constexpr double kCopyShare = 0.5;              // of the Ω of a vertex with two copies: the mean of the two sides
-constexpr int kLevelPerBase = 24;               // vertices of the coarsest level for each of the base
+constexpr double kCopyShare =
+    0.5;  // of the Ω of a vertex with two copies: the mean of the two sides (bench/README.md, "Feature curves")
+constexpr int kLevelPerBase = 24;  // vertices of the coarsest level for each of the base
 
 // Largest relative change of a price from one replicate to another. A price is taken at no more than 32 points of a
 // star (RemovalCost::kSamples), so it means far fewer digits than this changes.
