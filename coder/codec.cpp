@@ -103,7 +103,7 @@ struct Structure {
                                 Visit visit) const {
     std::vector<Vec3> positions = dequantize_base(known, header);
     for (int l = 0; l < level; ++l) {
-      const EdgeFrames frames(levels[l], positions);
+      const EdgeFrames frames(levels[l], positions, header.frames);
       std::vector<Vec3> details = dequantize_details(known, forest, l, header);
       for (int e = 0; e < levels[l].edge_count(); ++e)
         if (details[e] != Vec3::Zero()) details[e] = times(frames(e), details[e]);
@@ -130,8 +130,8 @@ struct Structure {
       const int finest = std::min(importance_level(header), finest_significant_level(known, forest) + 2);
       positions.push_back(
           reconstruct(known, finest, header, [&](const std::vector<Vec3>& p) { positions.push_back(p); }));
-      const auto urgency =
-          std::make_shared<SurfaceUrgency>(levels, forest, std::move(positions), header.tangential_ratio);
+      const auto urgency = std::make_shared<SurfaceUrgency>(levels, forest, std::move(positions),
+                                                            header.tangential_ratio, header.frames);
       return [urgency](int node) { return urgency->of(node); };
     };
     return layout;

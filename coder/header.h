@@ -8,6 +8,7 @@
 #include "coder/base_connectivity.h"
 #include "coder/codec.h"
 #include "coder/displaced/control_points.h"
+#include "remesh/filters/local_frames.h"
 
 namespace gsp {
 
@@ -19,7 +20,8 @@ enum class StreamKind : std::uint8_t {
 };
 inline constexpr int kStreamKinds = 3;
 
-/// The version that is written. Those of 7, which have no creases, and of 6, all parametric, are read in the same way.
+/// The version that is written. Those of 7, which have no creases and frames of their own, and of 6, all parametric,
+/// are read too.
 inline constexpr std::uint8_t kStreamVersion = 8;
 
 /// Everything that a decoder needs before the first bit-plane. On disk (`*.pgc`):
@@ -36,6 +38,7 @@ struct StreamHeader {
   StreamKind kind = StreamKind::Parametric;
   Wavelet wavelet = Wavelet::Loop;
   int tangential_ratio = 4;
+  FrameRule frames = FrameRule::Steady;  ///< follows from the version
   int level = 0;
   int base_planes = 0;
   int detail_planes = 0;

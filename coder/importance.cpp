@@ -85,7 +85,7 @@ Moment support_moment(const SubdivisionLevel& level, const std::vector<Moment>& 
 }  // namespace
 
 SurfaceUrgency::SurfaceUrgency(const std::vector<SubdivisionLevel>& levels, const EdgeForest& forest,
-                               std::vector<std::vector<Vec3>> positions, int tangential_ratio)
+                               std::vector<std::vector<Vec3>> positions, int tangential_ratio, FrameRule rule)
     : levels_(levels),
       forest_(forest),
       positions_(std::move(positions)),
@@ -100,7 +100,7 @@ SurfaceUrgency::SurfaceUrgency(const std::vector<SubdivisionLevel>& levels, cons
     for (std::size_t f = 0; f < fine.size(); f += 4)
       moments_[l - 1].push_back(fine[f] + fine[f + 1] + fine[f + 2] + fine[f + 3]);
   }
-  for (int l = 0; l < finest_; ++l) frames_.emplace_back(levels[l], positions_[l]);
+  for (int l = 0; l < finest_; ++l) frames_.emplace_back(levels[l], positions_[l], rule);
 }
 
 std::array<std::int8_t, 3> SurfaceUrgency::of(int node) const {

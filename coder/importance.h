@@ -23,7 +23,7 @@ class SurfaceUrgency {
  public:
   /// Keeps references to `levels` and `forest`. O(positions).
   SurfaceUrgency(const std::vector<SubdivisionLevel>& levels, const EdgeForest& forest,
-                 std::vector<std::vector<Vec3>> positions, int tangential_ratio);
+                 std::vector<std::vector<Vec3>> positions, int tangential_ratio, FrameRule rule);
   SurfaceUrgency(const SurfaceUrgency&) = delete;
 
   /// Of normal, first and second tangential component.

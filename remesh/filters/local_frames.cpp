@@ -1,5 +1,6 @@
 #include "remesh/filters/local_frames.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -8,6 +9,25 @@
 namespace gsp {
 
 namespace {
+
+// Faces thinner than that, by the sine of the angle between two edges, count less. Flat parts have some of 1e-16.
+constexpr double kThin = 1e-4;
+// Length of the sum of two unit normals from which on the sum alone counts; of a single one that counts alone.
+constexpr double kFolded = 0.4, kNone = 0.3;
+
+/// Unit normal of a face, shorter where the face is thin.
+Vec3 steady_normal(const Vec3& ab, const Vec3& ac) {
+  const Vec3 normal = cross(ab, ac);
+  const double least = kThin * std::sqrt(dot(ab, ab) * dot(ac, ac));
+  const double length = std::max(std::sqrt(dot(normal, normal)), least);
+  return length > 0.0 ? Vec3(normal / length) : Vec3::Zero();
+}
+
+/// A vector with some of another one where it is short, so that neither is 0 nor jumps.
+Vec3 filled_up(const Vec3& vector, const Vec3& other, double enough) {
+  const double length = std::sqrt(dot(vector, vector));
+  return length < enough ? Vec3(vector + (1.0 - length / enough) * other) : vector;
+}
 
 /// A unit vector orthogonal to the unit vector n.
 Vec3 any_orthogonal(const Vec3& n) {
@@ -30,18 +50,20 @@ Frame frame(const Vec3& normal, const Vec3& direction) {
 
 }  // namespace
 
-EdgeFrames::EdgeFrames(const SubdivisionLevel& level, const std::vector<Vec3>& positions)
-    : level_(level), positions_(positions), normals_(level.faces.size()) {
+EdgeFrames::EdgeFrames(const SubdivisionLevel& level, const std::vector<Vec3>& positions, FrameRule rule)
+    : level_(level), positions_(positions), rule_(rule), normals_(level.faces.size()) {
   for (int f = 0; f < level.face_count(); ++f) {
     const Triangle& t = level.faces[f];
-    normals_[f] =
-        unit(cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]])).value_or(Vec3::Zero());
+    const Vec3 ab = positions[t[1]] - positions[t[0]], ac = positions[t[2]] - positions[t[0]];
+    normals_[f] = rule == FrameRule::Steady ? steady_normal(ab, ac) : unit(cross(ab, ac)).value_or(Vec3::Zero());
   }
 }
 
 Frame EdgeFrames::operator()(int e) const {
-  Vec3 normal = normals_[level_.edge_faces[e][0]];
+  const Vec3& first = normals_[level_.edge_faces[e][0]];
+  Vec3 normal = first;
   if (level_.edge_faces[e][1] >= 0) normal += normals_[level_.edge_faces[e][1]];
+  if (rule_ == FrameRule::Steady) normal = filled_up(filled_up(normal, first, kFolded), Vec3::UnitZ(), kNone);
   return frame(normal, positions_[level_.edges[e][1]] - positions_[level_.edges[e][0]]);
 }
 
