@@ -9,7 +9,7 @@ gsp_samples="$gsp_root/out/samples"
 # Debian 12 packages that building, testing and drawing need.
 gsp_packages=(
   g++ cmake ninja-build
-  libeigen3-dev libopenmesh-dev libdraco-dev libtbb-dev libsuitesparse-dev libopenblas0-serial liblbfgs-dev
+  libeigen3-dev libopenmesh-dev libdraco-dev libtbb-dev libsuitesparse-dev libopenblas-dev liblbfgs-dev
   libcli11-dev nlohmann-json3-dev libfmt-dev libtomlplusplus-dev libsqlite3-dev libxxhash-dev catch2 libcgal-dev libbenchmark-dev gnuplot-nox
   libpng-dev libjs-three libboost-dev
 )
