@@ -22,7 +22,8 @@ constexpr int kFaces = 2500;            // of the stand-in
 constexpr double kRefinement = 8.0;     // faces of a remesh for each of the stand-in, within a factor of two
 constexpr std::size_t kSamples = 5000;  // of a distance: 0.1 dB
 constexpr std::size_t kBudgets[] = {1024, 2048, 4096, 8192};
-constexpr double kOctave = 12.0;  // dB lost for each halving of a budget that does not hold a header
+constexpr int kMostAroundVertex = 256;  // faces; the time of a decimation grows with the cube of that
+constexpr double kOctave = 12.0;        // dB lost for each halving of a budget that does not hold a header
 
 constexpr double kSmallest = 15.0, kLargest = 1600.0;  // vertices, of the ladder
 constexpr int kFewestPerBase = 8;                      // vertices of the surface for each of the base
@@ -30,6 +31,13 @@ constexpr double kLarger = 1.2;                        // than asked for is anot
 constexpr int kFirst[] = {2, 4, 6};                    // steps of the ladder: 30, 60, 120
 
 int size_at(int step) { return static_cast<int>(std::lround(kSmallest * std::pow(2.0, 0.5 * step))); }
+
+int largest_valence(const Mesh& mesh) {
+  std::vector<int> valence(mesh.positions.size(), 0);
+  for (const Triangle& t : mesh.faces)
+    for (int v : t) ++valence[v];
+  return *std::max_element(valence.begin(), valence.end());
+}
 
 /// Judges sizes on a stand-in.
 class Judge {
@@ -61,7 +69,12 @@ class Judge {
  private:
   static Mesh stand_in(const Mesh& mesh, Progress& progress) {
     if (mesh.face_count() <= kFaces) return mesh;
-    return decimate(mesh, {kFaces}, Decimation::Volume, progress).front();
+    // Flat fans have no volume to go by, and some surfaces no collapse that is left.
+    for (const Decimation decimation : {Decimation::Volume, Decimation::Quadrics}) {
+      std::vector<Mesh> fewer = decimate(mesh, {kFaces}, decimation, progress);
+      if (!fewer.empty()) return std::move(fewer.front());
+    }
+    return mesh;
   }
 
   std::optional<double> worth(int size) try {
@@ -117,6 +130,11 @@ class Judge {
 BaseByRate base_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress) {
   require_parameterizable(mesh);  // no size would do
   BaseByRate result;
+  if (largest_valence(mesh) > kMostAroundVertex) {
+    progress.note("the base is chosen by the paper's stop: a vertex has more than " +
+                  std::to_string(kMostAroundVertex) + " faces, which the choice by rate takes too long for");
+    return result;
+  }
   progress.report("choose the base by rate", 0.0);
   Judge judge(mesh, options, progress);
   if (judge.last() < 0) return result;

@@ -16,7 +16,7 @@ struct BaseTried {
 };
 
 struct BaseByRate {
-  /// The size to ask for; `kBaseByOmega` where no size of the ladder has a map.
+  /// The size to ask for; `kBaseByOmega` where no size of the ladder has a map, or a vertex has more than 256 faces.
   int base_vertices = kBaseByOmega;
   std::vector<BaseTried> tried;  ///< in the order in which they were
 };

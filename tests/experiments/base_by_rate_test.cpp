@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "mesh/parallel.h"
 #include "mesh/shapes.h"
@@ -63,4 +64,22 @@ TEST_CASE("a surface that cannot be parameterized is refused before a base is lo
   }
   Progress progress;
   CHECK_THROWS_AS(base_by_rate(broken, {}, progress), Error);
+}
+
+TEST_CASE("a surface with a vertex of hundreds of faces has no base by rate: that would take minutes") {
+  constexpr int kSides = 600;  // of a cone with a flat bottom
+  Mesh cone;
+  for (int i = 0; i < kSides; ++i)
+    cone.positions.push_back({std::cos(2.0 * M_PI * i / kSides), std::sin(2.0 * M_PI * i / kSides), 0.0});
+  cone.positions.push_back({0.0, 0.0, 2.0});
+  cone.positions.push_back({0.0, 0.0, 0.0});
+  for (int i = 0; i < kSides; ++i) {
+    const int next = (i + 1) % kSides;
+    cone.faces.push_back({i, next, kSides});
+    cone.faces.push_back({next, i, kSides + 1});
+  }
+  Progress silent;
+  const BaseByRate choice = base_by_rate(cone, {}, silent);
+  CHECK(choice.base_vertices == kBaseByOmega);
+  CHECK(choice.tried.empty());
 }
