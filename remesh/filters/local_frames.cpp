@@ -11,14 +11,14 @@ namespace gsp {
 namespace {
 
 // Faces thinner than that, by the sine of the angle between two edges, count less. Flat parts have some of 1e-16.
-constexpr double kThin = 1e-4;
+constexpr double kThinFace = 1e-4;
 // Length of the sum of two unit normals from which on the sum alone counts; of a single one that counts alone.
-constexpr double kFolded = 0.4, kNone = 0.3;
+constexpr double kFoldedEdge = 0.4, kVanishing = 0.3;
 
 /// Unit normal of a face, shorter where the face is thin.
 Vec3 steady_normal(const Vec3& ab, const Vec3& ac) {
   const Vec3 normal = cross(ab, ac);
-  const double least = kThin * std::sqrt(dot(ab, ab) * dot(ac, ac));
+  const double least = kThinFace * std::sqrt(dot(ab, ab) * dot(ac, ac));
   const double length = std::max(std::sqrt(dot(normal, normal)), least);
   return length > 0.0 ? Vec3(normal / length) : Vec3::Zero();
 }
@@ -63,7 +63,7 @@ Frame EdgeFrames::operator()(int e) const {
   const Vec3& first = normals_[level_.edge_faces[e][0]];
   Vec3 normal = first;
   if (level_.edge_faces[e][1] >= 0) normal += normals_[level_.edge_faces[e][1]];
-  if (rule_ == FrameRule::Steady) normal = filled_up(filled_up(normal, first, kFolded), Vec3::UnitZ(), kNone);
+  if (rule_ == FrameRule::Steady) normal = filled_up(filled_up(normal, first, kFoldedEdge), Vec3::UnitZ(), kVanishing);
   return frame(normal, positions_[level_.edges[e][1]] - positions_[level_.edges[e][0]]);
 }
 
