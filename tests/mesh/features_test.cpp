@@ -73,7 +73,7 @@ TEST_CASE("smooth and rough surfaces have no features") {
   CHECK(detect_features(shapes::bumpy_sphere(3)).empty());
 }
 
-TEST_CASE("the paper's scans have no features, and mechanical parts those of their drawing") {
+TEST_CASE("the paper's scans have no features, and mechanical parts those of their drawing", "[slow]") {
   if (const std::string shared = shared_meshes(); !shared.empty()) {
     for (const char* name : {"paper/bunny_34835_69473.ply", "paper/feline_49864.ply", "paper/horse_48485.ply",
                              "paper/venus_50002.ply", "variety/skull_20002.ply", "variety/gargoyle_24992.ply"}) {

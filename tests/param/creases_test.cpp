@@ -190,7 +190,7 @@ TEST_CASE("a surface without features has the same map with them asked for") {
   CHECK(with.map.provenance == without.map.provenance);
 }
 
-TEST_CASE("the creases of a mechanical part lie on base edges exactly") {
+TEST_CASE("the creases of a mechanical part lie on base edges exactly", "[slow]") {
   const std::string samples = sample_meshes();
   if (samples.empty()) return;
   const Mesh part = read_mesh(samples + "/fandisk.off");
