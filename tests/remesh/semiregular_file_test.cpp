@@ -82,7 +82,8 @@ TEST_CASE("creases come back with a semi-regular file, and those that are no bas
   CHECK(with({{-1, 0}}) == Cause::Malformed);
 
   mesh.creases.clear();
-  for (const auto& ends : mesh.levels()[0].edges)
+  const std::vector<SubdivisionLevel> levels = mesh.levels();
+  for (const auto& ends : levels[0].edges)
     if (std::min(ends[0], ends[1]) == 0 && mesh.creases.size() < 2)
       mesh.creases.push_back({0, std::max(ends[0], ends[1])});
   std::sort(mesh.creases.begin(), mesh.creases.end());
