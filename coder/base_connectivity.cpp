@@ -7,6 +7,7 @@
 #include "coder/base_creases.h"
 #include "coder/bit_model.h"
 #include "coder/range_coder.h"
+#include "mesh/edge.h"
 #include "mesh/error.h"
 
 namespace gsp {
@@ -237,8 +238,6 @@ class Renaming {
   std::unordered_map<std::uint64_t, int> sides_;
   int first_left_ = 0;
 };
-
-std::array<int, 2> ascending(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 /// Creases of a base, after its faces, and their corners. `base` names those of the encoder and receives the decoder's.
 template <class Side>

@@ -161,14 +161,12 @@ BaseByRate base_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Pr
 
 namespace {
 
-constexpr int kVerticesPerBase = 8;  // of the surface, up to which the base grows for features
-
 /// The next sizes up to one with room for all features, which the stand-in may have lost.
 int with_room_for_features(const Mesh& mesh, ParameterizeOptions options) {
   const int chosen = options.base_vertices;
   while (choose_features(mesh, options).given_way > 0) {
     options.base_vertices = static_cast<int>(std::lround(std::numbers::sqrt2 * options.base_vertices));
-    if (options.base_vertices > mesh.vertex_count() / kVerticesPerBase) return chosen;
+    if (options.base_vertices > mesh.vertex_count() / kFewestPerBase) return chosen;
   }
   return options.base_vertices;
 }

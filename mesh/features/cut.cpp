@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mesh/edge.h"
 #include "mesh/halfedges.h"
 
 namespace gsp {
@@ -12,9 +13,7 @@ CutMesh cut_along(const Mesh& mesh, const FeatureEdges& edges) {
   std::iota(cut.original.begin(), cut.original.end(), 0);
   const Halfedges halfedges(mesh);
   const auto is_cut = [&](int h) {
-    const std::array<int, 2> edge{std::min(halfedges.from(h), halfedges.to(h)),
-                                  std::max(halfedges.from(h), halfedges.to(h))};
-    return std::binary_search(edges.begin(), edges.end(), edge);
+    return std::binary_search(edges.begin(), edges.end(), ascending(halfedges.from(h), halfedges.to(h)));
   };
   std::vector<char> on_cut(mesh.positions.size(), 0);
   for (const auto& edge : edges)

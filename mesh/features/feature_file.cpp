@@ -4,6 +4,7 @@
 #include <charconv>
 #include <string_view>
 
+#include "mesh/edge.h"
 #include "mesh/error.h"
 #include "mesh/halfedges.h"
 #include "mesh/read_file.h"
@@ -86,7 +87,7 @@ FeatureEdges read_features(const std::string& path, const Mesh& mesh) {
       throw Error(Cause::Malformed, path + ": a row of features has another length", Element::Line, row.line);
     const int h = by_faces ? halfedge_of(row, mesh) : halfedge_between(row, halfedges);
     if (halfedges.twin[h] < 0) continue;
-    edges.push_back({std::min(halfedges.from(h), halfedges.to(h)), std::max(halfedges.from(h), halfedges.to(h))});
+    edges.push_back(ascending(halfedges.from(h), halfedges.to(h)));
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "mesh/disjoint_sets.h"
+#include "mesh/edge.h"
 #include "mesh/error.h"
 #include "mesh/halfedges.h"
 
@@ -37,9 +38,7 @@ std::vector<double> dihedral_angles(const Mesh& mesh, const Halfedges& halfedges
   return angle;
 }
 
-std::array<int, 2> ends(const Halfedges& halfedges, int h) {
-  return {std::min(halfedges.from(h), halfedges.to(h)), std::max(halfedges.from(h), halfedges.to(h))};
-}
+std::array<int, 2> ends(const Halfedges& halfedges, int h) { return ascending(halfedges.from(h), halfedges.to(h)); }
 
 void require_angle(double degrees) {
   if (!(degrees > 0.0 && degrees < 180.0))
@@ -71,24 +70,29 @@ bool path_within(const std::vector<std::vector<std::pair<int, double>>>& at, std
   return found;
 }
 
+/// Calls visit(h, e) for each half-edge h on the feature edge of number e.
+template <class Visit>
+void for_each_on(const FeatureEdges& edges, const Halfedges& halfedges, Visit&& visit) {
+  for (int h = 0; h < static_cast<int>(halfedges.twin.size()); ++h) {
+    const auto found = std::lower_bound(edges.begin(), edges.end(), ends(halfedges, h));
+    if (found != edges.end() && *found == ends(halfedges, h)) visit(h, found - edges.begin());
+  }
+}
+
 /// The dihedral angle at each edge.
-std::vector<double> turns_of(const Mesh& mesh, const FeatureEdges& edges) {
-  const Halfedges halfedges(mesh);
+std::vector<double> turns_of(const Mesh& mesh, const Halfedges& halfedges, const FeatureEdges& edges) {
   const std::vector<double> angle = dihedral_angles(mesh, halfedges);
   std::vector<double> turn(edges.size(), 0.0);
-  for (int h = 0; h < static_cast<int>(angle.size()); ++h) {
-    const auto found = std::lower_bound(edges.begin(), edges.end(), ends(halfedges, h));
-    if (found != edges.end() && *found == ends(halfedges, h)) turn[found - edges.begin()] = angle[h];
-  }
+  for_each_on(edges, halfedges, [&](int h, std::ptrdiff_t e) { turn[e] = angle[h]; });
   return turn;
 }
 
 /// Feature edges by their vertices.
 class Network {
  public:
-  Network(const Mesh& mesh, const FeatureEdges& edges)
-      : mesh_(mesh), edges_(edges), at_(mesh.positions.size()), turn_(turns_of(mesh, edges)) {
+  Network(const Mesh& mesh, const FeatureEdges& edges) : mesh_(mesh), edges_(edges), at_(mesh.positions.size()) {
     const Halfedges halfedges(mesh);
+    turn_ = turns_of(mesh, halfedges, edges);
     for (std::size_t e = 0; e < edges.size(); ++e)
       for (int v : edges[e]) at_[v].push_back(static_cast<int>(e));
     corner_.assign(at_.size(), 0);
@@ -135,7 +139,7 @@ class Network {
 /// Of edges, sharpest first, those that close no short cycle with those before them: where a crease is a band of sharp
 /// edges one line of it is left.
 FeatureEdges without_short_cycles(const Mesh& mesh, const FeatureEdges& edges, double shortest) {
-  const std::vector<double> turn = turns_of(mesh, edges);
+  const std::vector<double> turn = turns_of(mesh, Halfedges(mesh), edges);
   std::vector<int> order(edges.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return turn[a] > turn[b]; });
@@ -160,15 +164,13 @@ std::vector<double> clarities_of(const Mesh& mesh, const FeatureEdges& edges) {
   const Halfedges halfedges(mesh);
   const std::vector<double> angle = dihedral_angles(mesh, halfedges);
   std::vector<double> clarity(edges.size(), 0.0);
-  for (int h = 0; h < static_cast<int>(angle.size()); ++h) {
-    const auto found = std::lower_bound(edges.begin(), edges.end(), ends(halfedges, h));
-    if (found == edges.end() || *found != ends(halfedges, h)) continue;
+  for_each_on(edges, halfedges, [&](int h, std::ptrdiff_t e) {
     const int twin = halfedges.twin[h];
     std::array<double, 4> others{angle[Halfedges::next(h)], angle[Halfedges::prev(h)], angle[Halfedges::next(twin)],
                                  angle[Halfedges::prev(twin)]};
     std::sort(others.begin(), others.end());
-    clarity[found - edges.begin()] = angle[h] / std::max(others[1], kCalm);
-  }
+    clarity[e] = angle[h] / std::max(others[1], kCalm);
+  });
   return clarity;
 }
 
@@ -200,8 +202,8 @@ FeatureEdges clear_ones(const Mesh& mesh, const FeatureEdges& edges, const Featu
   for (FeatureCurve& c : feature_curves(mesh, edges)) {
     std::vector<double> along;
     for (std::size_t i = 0; i + 1 < c.vertices.size(); ++i) {
-      const auto [a, b] = std::minmax(c.vertices[i], c.vertices[i + 1]);
-      along.push_back(clarity[std::lower_bound(edges.begin(), edges.end(), std::array{a, b}) - edges.begin()]);
+      const auto edge = ascending(c.vertices[i], c.vertices[i + 1]);
+      along.push_back(clarity[std::lower_bound(edges.begin(), edges.end(), edge) - edges.begin()]);
     }
     std::nth_element(along.begin(), along.begin() + along.size() / 2, along.end());
     const bool is_clear = c.turn >= radians(options.strong) && along[along.size() / 2] >= options.clarity &&
@@ -254,7 +256,7 @@ FeatureEdges edges_of(const std::vector<FeatureCurve>& curves) {
   FeatureEdges edges;
   for (const FeatureCurve& c : curves)
     for (std::size_t i = 0; i + 1 < c.vertices.size(); ++i)
-      edges.push_back({std::min(c.vertices[i], c.vertices[i + 1]), std::max(c.vertices[i], c.vertices[i + 1])});
+      edges.push_back(ascending(c.vertices[i], c.vertices[i + 1]));
   std::sort(edges.begin(), edges.end());
   return edges;
 }

@@ -179,10 +179,6 @@ class Flip {
   std::array<int, 4> old_, new_;  ///< the rhombus's sides c-a, a-d, d-b, b-c
 };
 
-}  // namespace
-
-namespace {
-
 /// Whether a base edge joins two vertices, or where the surface was cut open, other copies of them.
 bool joined(const Atlas& atlas, int c, int d) {
   const Seams& seams = atlas.surface->seams;

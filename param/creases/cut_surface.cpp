@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "mesh/edge.h"
 #include "mesh/features/cut.h"
 #include "param/atlas/split_edges.h"
 
@@ -51,7 +52,7 @@ FeatureEdges split_features(const FeatureEdges& features, const std::vector<std:
   std::set<std::array<int, 2>> edges(features.begin(), features.end());
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const int middle = first_middle + static_cast<int>(i);
-    const auto [a, b] = std::minmax(ends[i][0], ends[i][1]);
+    const auto [a, b] = ascending(ends[i][0], ends[i][1]);
     if (edges.erase({a, b}) == 0) continue;
     edges.insert({a, middle});  // middles come last
     edges.insert({b, middle});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesh/edge.h"
 #include "mesh/error.h"
 #include "mesh/halfedges.h"
 
@@ -10,15 +11,14 @@ namespace gsp {
 namespace {
 
 constexpr int kClosed = 3;        // base vertices of a closed curve
-constexpr double kRoom = 0.4;    // of the base vertices asked for,
+constexpr double kRoom = 0.4;     // of the base vertices asked for,
 constexpr double kAutomatic = 8;  // or vertices of the surface for each, where the base's size is automatic
 
 void require_edges(const Mesh& mesh, const FeatureEdges& edges) {
   const Halfedges halfedges(mesh);
   FeatureEdges interior;
   for (int h = 0; h < static_cast<int>(halfedges.twin.size()); ++h)
-    if (halfedges.twin[h] > h)
-      interior.push_back({std::min(halfedges.from(h), halfedges.to(h)), std::max(halfedges.from(h), halfedges.to(h))});
+    if (halfedges.twin[h] > h) interior.push_back(ascending(halfedges.from(h), halfedges.to(h)));
   std::sort(interior.begin(), interior.end());
   for (const auto& edge : edges) {
     if (edge[0] < 0 || edge[1] >= mesh.vertex_count())

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mesh/edge.h"
+
 namespace gsp {
 
 namespace {
@@ -22,8 +24,7 @@ BaseComplex glue_base(const BaseComplex& cut_base, const CutSurface& cut, int wh
   base.connect();
   for (int h = 0; h < static_cast<int>(base.twins.size()); ++h) {
     if (cut_base.twins[h] >= 0 || base.twins[h] < h) continue;
-    const auto [a, b] = std::minmax(base.faces[h / 3][h % 3], base.faces[h / 3][(h + 1) % 3]);
-    base.creases.push_back({a, b});
+    base.creases.push_back(ascending(base.faces[h / 3][h % 3], base.faces[h / 3][(h + 1) % 3]));
   }
   std::sort(base.creases.begin(), base.creases.end());
   return base;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesh/edge.h"
 #include "mesh/halfedges.h"
 
 namespace gsp {
@@ -28,7 +29,7 @@ std::vector<char> BaseComplex::crease_halfedges() const {
   std::vector<char> on_crease(twins.size(), 0);
   for (std::size_t h = 0; h < twins.size() && !creases.empty(); ++h) {
     const int a = faces[h / 3][h % 3], b = faces[h / 3][(h + 1) % 3];
-    on_crease[h] = std::binary_search(creases.begin(), creases.end(), std::array{std::min(a, b), std::max(a, b)});
+    on_crease[h] = std::binary_search(creases.begin(), creases.end(), ascending(a, b));
   }
   return on_crease;
 }
