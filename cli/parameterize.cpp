@@ -25,7 +25,7 @@ struct ParameterizeArguments {
   std::string method = "gsp";
   ReadOptions read;
   ParameterizeOptions parameterize = preset_options("default");
-  bool check = false;
+  bool check = false, profile = false;
 };
 
 /// Draws the cost of the removals to FOLDER/NAME.png, .svg and .gp for the path FOLDER/NAME, whatever ending it has.
@@ -44,13 +44,23 @@ Json stages(const CostCurve& cost) {
 
 int run_parameterize(ParameterizeArguments& options, Context& context) {
   Progress progress = context.console.progress();
+  Profile profile;
+  if (options.profile) progress.set_profile(&profile);
+  auto whole = progress.step("whole");
   options.parameterize.method = method_of(options.method);
-  const SurfaceFile file = read_input(options.mesh, options.read, context);
+  const SurfaceFile file = [&] {
+    const auto step = progress.step("read");
+    return read_input(options.mesh, options.read, context);
+  }();
   if (!options.features.empty()) options.parameterize.features = read_features(options.features, file.mesh);
   const ParameterizeResult result = in_places_of(file, [&] {
     return parameterize(file.mesh, with_base_by_rate(file.mesh, options.parameterize, progress), progress);
   });
-  write_parameterization(options.output, result.map);
+  {
+    const auto step = progress.step("write");
+    write_parameterization(options.output, result.map);
+  }
+  whole.end();
   if (!options.omega_csv.empty()) write_omega_csv(options.omega_csv, result.omega);
   const CostCurve cost = cost_curve(result.omega);
   if (!options.omega_plot.empty() && !cost.bins.empty()) draw_cost(options.omega_plot, options.mesh, cost);
@@ -81,7 +91,10 @@ int run_parameterize(ParameterizeArguments& options, Context& context) {
     report["check"] = check_report(check);
     status = check.valid() ? 0 : exit_status(Cause::InvalidMap);
   }
-  print_report(context, report);
+  if (options.profile)
+    print_report(context, report, profile.steps());
+  else
+    print_report(context, report);
   return status;
 }
 
@@ -105,6 +118,10 @@ void add_parameterize(CLI::App& app, Context& context) {
   command.optional_output(
       "--omega-plot", options->omega_plot, Content::Figure,
       "also draw that cost with its three stages and the automatic stop: FILE's name with .png, .svg and .gp");
+  command.flag(
+      "--profile", options->profile,
+      "also print wall and CPU seconds and peak memory of each step; its record of the peak begins anew with each "
+      "step, so that of others (/usr/bin/time) is then the last step's");
   command.flag("--check", options->check, "check the map face by face; exit status 1 where it is not valid");
   command.on_run([options, &context] { return run_parameterize(*options, context); });
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "experiments/output/profile_json.h"
 #include "experiments/output/quoting.h"
 #include "experiments/version.h"
 
@@ -67,6 +68,18 @@ void print_report(const Context& context, const Json& report) {
   whole.update(report);
   // Names of files may hold any bytes; those that are not UTF-8 are replaced.
   context.out << whole.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+void print_report(const Context& context, Json report, const std::vector<ProfileStep>& steps) {
+  if (context.json) {
+    report["profile"] = profile_json(steps);
+    return print_report(context, report);
+  }
+  print_report(context, report);
+  context.out << fmt::format("{:<44}{:>6}{:>10}{:>10}{:>10}\n", "step", "runs", "wall s", "CPU s", "peak MB");
+  for (const ProfileStep& s : steps)
+    context.out << fmt::format("{:<44}{:>6}{:>10.3f}{:>10.3f}{:>10.1f}\n", std::string(2 * s.depth, ' ') + s.name,
+                               s.runs, s.seconds, s.cpu_seconds, s.peak_megabytes);
 }
 
 Json error_report(const Error& error) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "mesh/error.h"
+#include "mesh/profile.h"
 
 namespace gsp {
 
@@ -33,13 +34,21 @@ class Progress {
       return true;
     });
     inner.on_note([this, name](const std::string& sentence) { note(name + ": " + sentence); });
+    inner.profile_ = profile_;
     return inner;
   }
+  /// Begins a step of the profile, if there is one, that ends with the scope.
+  [[nodiscard]] Profile::Scope step(const std::string& name) {
+    return profile_ ? profile_->step(name) : Profile::Scope();
+  }
+  /// Has the steps timed there from now on, or no longer.
+  void set_profile(Profile* profile) { profile_ = profile; }
   void on_note(std::function<void(const std::string&)> notes) { notes_ = std::move(notes); }
 
  private:
   Callback callback_;
   std::function<void(const std::string&)> notes_;
+  Profile* profile_ = nullptr;
 };
 
 }  // namespace gsp

@@ -103,6 +103,7 @@ double patch_count(const Mesh& mesh, int base_vertices) {
 
 /// The surface with edges short enough for the patches, and none that joins two boundaries. `features` follow.
 Mesh refined(Mesh mesh, FeatureEdges& features, const ParameterizeOptions& options, Progress& progress) {
+  const auto step = progress.step("split long edges");
   const double faces = mesh.face_count();
   const int own = mesh.vertex_count();
   const auto chords = split_boundary_chords(mesh);
@@ -130,6 +131,7 @@ struct Levels {
 };
 
 Levels make_levels(std::shared_ptr<const Surface> surface, const ParameterizeOptions& options, Progress& progress) {
+  const auto step = progress.step("simplify");
   const int coarsest = coarsest_level(*surface, options);
   SimplifyResult simplified = simplify(surface, options, coarsest, progress);
   return {std::move(surface), coarsest, std::move(simplified)};
@@ -143,6 +145,7 @@ std::optional<SmoothedMap> join_levels(const Levels& first, const ParameterizeOp
   const int whole = first.surface->mesh.vertex_count();
   int coarsest = first.coarsest;
   const auto joined = [&](const std::optional<SmoothedMap>& map) {
+    const auto step = progress.step("check map");
     return map && (coarsest >= whole || check_map(map->atlas.finish({})).valid());
   };
   std::optional<SmoothedMap> map = make(first.simplified);
@@ -242,6 +245,7 @@ Start make_start(const Mesh& mesh, ChosenFeatures chosen, const std::vector<Meth
 ParameterizeResult finish(const Mesh& input, const Start& start, Method method, const ParameterizeOptions& options,
                           Progress& progress) {
   ParameterizeResult result;
+  const auto step = progress.step(std::string("finish ") + method_name(method));
   Atlas atlas;
   if (method == Method::Gsp) {
     SmoothedMap map = *start.smooth;

@@ -175,6 +175,7 @@ int with_room_for_features(const Mesh& mesh, ParameterizeOptions options) {
 
 ParameterizeOptions with_base_by_rate(const Mesh& mesh, ParameterizeOptions options, Progress& progress) {
   if (options.base_vertices != kBaseByRate) return options;
+  const auto step = progress.step("choose base by rate");
   options.base_vertices = base_by_rate(mesh, options, progress).base_vertices;
   if (options.base_vertices != kBaseByOmega) options.base_vertices = with_room_for_features(mesh, options);
   if (options.base_vertices != kBaseByOmega)

@@ -33,6 +33,13 @@ CREATE TABLE stage(key TEXT PRIMARY KEY, kind TEXT NOT NULL, input TEXT NOT NULL
 CREATE TABLE artefact(stage TEXT, role TEXT, path TEXT NOT NULL, PRIMARY KEY(stage, role)) WITHOUT ROWID;
 )";
 
+// Stores of this schema from before it hold no table of steps.
+constexpr const char* kStepSchema = R"(
+CREATE TABLE IF NOT EXISTS step(stage TEXT, position INTEGER, name TEXT NOT NULL, depth INTEGER NOT NULL,
+  runs INTEGER NOT NULL, seconds REAL NOT NULL, cpu_seconds REAL NOT NULL, peak_megabytes REAL NOT NULL,
+  PRIMARY KEY(stage, position)) WITHOUT ROWID;
+)";
+
 std::string place(const std::string& folder, const std::string& path) {
   return path.empty() ? path : folder + '/' + path;
 }
@@ -109,6 +116,7 @@ struct Store::Impl {
       throw Error(Cause::Malformed, path + " has schema " + std::to_string(found) + ", this gsp reads schema " +
                                         std::to_string(kSchemaVersion) + "; sweep into a new folder");
     }
+    if (create) database->execute(kStepSchema);
     // After a crash of the program everything committed is there; after one of the machine the last results may be
     // gone, and are computed again.
     if (create) database->execute("PRAGMA synchronous=NORMAL");
@@ -155,6 +163,7 @@ struct Store::Impl {
     forget_details(r.key);
     const auto artefact = database->prepare("INSERT INTO artefact VALUES(?,?,?)");
     for (const auto& [role, path] : r.artefacts) artefact->run(r.key, role, path);
+    put_steps(r);
     std::string places = "?,?";
     for (std::size_t i = 0; i < measured_fields().size(); ++i) places += ",?";
     const auto point = database->prepare(fmt::format("INSERT INTO point({}) VALUES({})", point_columns(), places));
@@ -168,7 +177,18 @@ struct Store::Impl {
     }
   }
 
+  void put_steps(const StageResult& r) {
+    const auto step = database->prepare("INSERT INTO step VALUES(?,?,?,?,?,?,?,?)");
+    std::int64_t position = 0;
+    for (const ProfileStep& s : r.steps)
+      step->run(r.key, position++, s.name, std::int64_t{s.depth}, std::int64_t{s.runs}, s.seconds, s.cpu_seconds,
+                s.peak_megabytes);
+  }
+
+  bool has_steps() const { return database->prepare("SELECT 1 FROM sqlite_master WHERE name = 'step'")->step(); }
+
   void forget_details(const std::string& key) {
+    database->prepare("DELETE FROM step WHERE stage = ?")->run(key);
     database->prepare("DELETE FROM artefact WHERE stage = ?")->run(key);
     database->prepare("DELETE FROM point WHERE stage = ?")->run(key);
   }
@@ -267,6 +287,14 @@ std::map<std::string, StageResult> Store::Impl::results() const {
     r.seconds = stage->real(8);
     r.cpu_seconds = stage->real(9);
     r.reference_seconds = stage->real(10);
+  }
+  if (has_steps()) {
+    const auto step = database->prepare(
+        "SELECT stage, name, depth, runs, seconds, cpu_seconds, peak_megabytes FROM step ORDER BY stage, position");
+    while (step->step())
+      results[step->text(0)].steps.push_back({step->text(1), static_cast<int>(step->integer(2)),
+                                              static_cast<int>(step->integer(3)), step->real(4), step->real(5),
+                                              step->real(6)});
   }
   const auto artefact = database->prepare("SELECT stage, role, path FROM artefact");
   while (artefact->step()) results[artefact->text(0)].artefacts[artefact->text(1)] = artefact->text(2);

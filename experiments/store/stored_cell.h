@@ -35,6 +35,8 @@ struct StageResult {
       points;                ///< of Measure, by ascending bytes; only what a `Meter` fills in, and the coder of anchors
   double seconds = 0.0;      ///< wall
   double cpu_seconds = 0.0;  ///< of all threads
+  std::vector<ProfileStep>
+      steps;  ///< of Parameterize, where those seconds went, with what maps made along with it took
   double reference_seconds = 0.0;  ///< CPU time of the reference task in the same process (reference_task.h)
 
   bool failed() const { return !cause.empty(); }

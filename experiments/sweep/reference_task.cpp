@@ -1,13 +1,11 @@
 #include "experiments/sweep/reference_task.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <vector>
 
+#include "mesh/profile.h"
 #include "mesh/random.h"
 
 namespace gsp {
@@ -26,17 +24,6 @@ double work() {
 }
 
 }  // namespace
-
-double process_cpu_seconds() {
-  timespec time{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  rusage children{};
-  ::getrusage(RUSAGE_CHILDREN, &children);
-  double seconds = static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  for (const timeval& part : {children.ru_utime, children.ru_stime})
-    seconds += static_cast<double>(part.tv_sec) + 1e-6 * static_cast<double>(part.tv_usec);
-  return seconds;
-}
 
 double reference_task_seconds() {
   double best = std::numeric_limits<double>::infinity();

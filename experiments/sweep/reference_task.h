@@ -7,7 +7,4 @@ namespace gsp {
 /// s.
 double reference_task_seconds();
 
-/// CPU time of this process so far, all threads, and of its children that have ended, as external methods do.
-double process_cpu_seconds();
-
 }  // namespace gsp

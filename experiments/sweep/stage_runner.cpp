@@ -106,9 +106,12 @@ class Runner {
     const Clock clock;
     std::vector<StageResult> results(methods.size());
     ParameterizeOptions options = batch.options;
+    Profile profile;
+    Progress timed = progress_;
+    timed.set_profile(&profile);
     const bool failed = !attempt(results.front(), [&] {
-      options = with_base_by_rate(surface_, options, progress_);
-      const std::vector<ParameterizeResult> maps = parameterize_all(surface_, methods, options, progress_);
+      options = with_base_by_rate(surface_, options, timed);
+      const std::vector<ParameterizeResult> maps = parameterize_all(surface_, methods, options, timed);
       for (std::size_t i = 0; i < maps.size(); ++i) describe_map(maps[i], results[i]);
     });
     // Together they fail together, so each is tried alone to learn which one it is.
@@ -116,8 +119,10 @@ class Runner {
       for (const PlannedCell* cell : batch.cells) make_maps({options, {cell}});
       return;
     }
-    for (std::size_t i = 0; i < results.size(); ++i)
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      results[i].steps = profile.steps();
       finish(*batch.cells[i], StageKind::Parameterize, results[i], clock);
+    }
   }
 
   void describe_map(const ParameterizeResult& map, StageResult& result) {

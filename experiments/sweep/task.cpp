@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/output/profile_json.h"
 #include "experiments/store/json_file.h"
 
 namespace gsp {
@@ -25,6 +26,7 @@ Json result_json(const StageResult& r) {
           {"points", points},
           {"seconds", r.seconds},
           {"cpu_seconds", r.cpu_seconds},
+          {"steps", profile_json(r.steps)},
           {"reference_seconds", r.reference_seconds}};
 }
 
@@ -42,6 +44,7 @@ StageResult result_of(const Json& j) {
   for (const Json& point : j.at("points")) r.points.push_back(measured_point(point));
   r.seconds = j.at("seconds").get<double>();
   r.cpu_seconds = j.at("cpu_seconds").get<double>();
+  if (j.contains("steps")) r.steps = profile_of_json(j.at("steps"));  // earlier versions wrote none
   r.reference_seconds = j.at("reference_seconds").get<double>();
   return r;
 }

@@ -254,6 +254,7 @@ bool Flipper::attempt(const FlipSite& site, const std::vector<int>& patches) {
 }  // namespace
 
 int flip_base_edges(Atlas& atlas, Progress& progress) {
+  const auto step = progress.step("flip base edges");
   if (atlas.reassign_all() > 0) return 0;
   Flipper flipper(atlas);
   int flipped = 0;

@@ -18,6 +18,7 @@ constexpr int kMostSteps = 100;
 }  // namespace
 
 bool lower_distortion(Atlas& atlas, double least_gain, Progress& progress) {
+  const auto step = progress.step("lower distortion of all at once");
   seat_boundary(atlas);
   std::vector<int> vertices, faces(atlas.surface->mesh.faces.size());
   for (int v = 0; v < static_cast<int>(atlas.patch.size()); ++v)
@@ -128,6 +129,7 @@ std::vector<std::vector<int>> independent_groups(const std::vector<Block>& block
 }  // namespace
 
 void lower_distortion_locally(Atlas& atlas, int sweeps, Progress& progress) {
+  const auto step = progress.step("lower distortion block by block");
   seat_boundary(atlas);
   std::vector<int> faces(atlas.surface->mesh.faces.size());
   std::iota(faces.begin(), faces.end(), 0);

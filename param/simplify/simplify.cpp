@@ -162,6 +162,7 @@ void Simplifier::price_with_copy(RemovalCost& pricer, int vertex) {
 }
 
 void Simplifier::price_all() {
+  const auto step = progress_.step("price all vertices");
   const int count = surface_->mesh.vertex_count();
   candidates_.resize(count);
   parallel_for(count, 2048, [&](std::size_t begin, std::size_t end) {
@@ -311,6 +312,7 @@ void Simplifier::take_out(const Star& star, const Candidate& candidate) {
 
 /// The complex becomes the surface of the next level.
 void Simplifier::end_level() {
+  const auto step = progress_.step("take over level");
   CoarseSurface coarse = coarse_surface(map_);
   Level next{coarse.surface, std::vector<int>(level_.vertex.size(), -1), std::vector<int>(level_.face.size(), -1)};
   for (std::size_t v = 0; v < coarse.vertex.size(); ++v) next.vertex[coarse.vertex[v]] = static_cast<int>(v);
@@ -333,11 +335,15 @@ SimplifyResult Simplifier::run(int coarsest) {
   price_all();
   while (!ended_ && remaining_ > coarsest) {
     const int before = remaining_;
-    remove_down_to(std::max(coarsest, remaining_ / kRatio));
+    {
+      const auto step = progress_.step("remove vertices");
+      remove_down_to(std::max(coarsest, remaining_ / kRatio));
+    }
     if (before == remaining_) break;
     end_level();
     if (queue_.empty()) break;
   }
+  const auto step = progress_.step("remove vertices from the map");
   result_.map.emplace(level_.surface);
   for (RemovalCost& pricer : pricers_) pricer.allow_chords();
   for (int v = 0; v < static_cast<int>(queued_.size()); ++v)  // what could not be removed before may be now

@@ -18,10 +18,18 @@ constexpr double kRoughly = 2e-3,
 constexpr int kSweeps = 1;
 constexpr int kWhole = 20000;  // vertices up to which the whole map is smoothed at once, after each relaxation too
 
-int relax_or_descend(Atlas& atlas, const ParameterizeOptions& options) {
+int relax_or_descend(Atlas& atlas, const ParameterizeOptions& options, Progress& progress) {
+  const auto step = progress.step("move corners");
   if (options.corners == Corners::Gradient)
     return descend_corners(atlas, Objective::Distortion, kRelaxationRadius, Folding::Refused);
   return relax_corners(atlas, LinearWeights(*atlas.surface, options.weights), kRelaxationRadius, Folding::Refused);
+}
+
+/// Takes out added vertices that the map has come to need no more.
+void coarsen_map(EditableAtlas& map, Progress& progress) {
+  const auto step = progress.step("take out added vertices");
+  map = coarsen(std::move(map));
+  map.atlas.reassign_all();
 }
 
 /// The whole map at once.
@@ -30,9 +38,7 @@ SmoothingRecord smooth_coarsest(EditableAtlas& map, const ParameterizeOptions& o
   const bool large = map.atlas.surface->mesh.vertex_count() > kWhole;
   if (large) lower_distortion_locally(map.atlas, kSweeps, progress);
   lower_distortion(map.atlas, kRoughly, progress);
-  // Where the map has become smooth it needs fewer added vertices.
-  map = coarsen(std::move(map));
-  map.atlas.reassign_all();
+  coarsen_map(map, progress);
   const auto lower_again = [&] {
     if (large)  // what corners and base edges have changed is local
       lower_distortion_locally(map.atlas, kSweeps, progress);
@@ -50,7 +56,7 @@ SmoothingRecord smooth_coarsest(EditableAtlas& map, const ParameterizeOptions& o
   best.offer(map.atlas, 0);
   std::vector<int> flipped_by{flipped};
   for (int round = 1; round <= options.relaxations; ++round) {
-    if (relax_or_descend(map.atlas, options) == 0) break;
+    if (relax_or_descend(map.atlas, options, progress) == 0) break;
     lower_again();
     flip();
     best.offer(map.atlas, round);
@@ -64,22 +70,30 @@ SmoothingRecord smooth_coarsest(EditableAtlas& map, const ParameterizeOptions& o
 /// A map that a coarser level has made smooth on the large.
 void smooth_finer(EditableAtlas& map, const ParameterizeOptions& options, Progress& progress) {
   map.atlas.reassign_all();
-  if (options.relaxations > 0) relax_or_descend(map.atlas, options);
+  if (options.relaxations > 0) relax_or_descend(map.atlas, options, progress);
   lower_distortion_locally(map.atlas, kSweeps, progress);
-  map = coarsen(std::move(map));
-  map.atlas.reassign_all();
+  coarsen_map(map, progress);
+}
+
+/// The vertices that a level took out, put back into its map. Nothing where one has no place.
+std::optional<EditableAtlas> put_back(const RemovalRecord& level, const EditableAtlas& map, Progress& progress) {
+  const auto step = progress.step("put back vertices");
+  return reinsert(level, map);
 }
 
 }  // namespace
 
 std::optional<SmoothedMap> smooth_levels(const SimplifyResult& simplified, const ParameterizeOptions& options,
                                          Progress& progress) {
+  auto coarsest = progress.step("coarsest level");
   EditableAtlas map = simplified.map->coarsened();
   map.atlas.reassign_all();
   if (!settle_creases(map.atlas, progress)) return std::nullopt;
   const SmoothingRecord record = smooth_coarsest(map, options, simplified.finer.empty(), progress);
+  coarsest.end();
   for (auto level = simplified.finer.rbegin(); level != simplified.finer.rend(); ++level) {
-    std::optional<EditableAtlas> more = reinsert(*level, map);
+    const auto finer = progress.step("finer levels");
+    std::optional<EditableAtlas> more = put_back(*level, map, progress);
     if (!more) return std::nullopt;
     map = std::move(*more);
     if (!settle_creases(map.atlas, progress)) return std::nullopt;

@@ -106,6 +106,24 @@ TEST_CASE("a preset sets what the line does not say, wherever it stands") {
   CHECK(made({})["objective"] == "distortion");
 }
 
+TEST_CASE("a profile names the steps of a map, and leaves the map the same bytes") {
+  const TemporaryFolder folder;
+  const std::string mesh = write_bumpy(folder), map = folder.file("map.param.ply"),
+                    timed = folder.file("timed.param.ply");
+  REQUIRE(gsp_run({"parameterize", mesh, "-o", map, "--base-vertices", "40"}).status == 0);
+  const Ran ran = gsp_run({"parameterize", mesh, "-o", timed, "--base-vertices", "40", "--profile", "--json"});
+  REQUIRE(ran.status == 0);
+  CHECK(read_file(timed) == read_file(map));
+  const json report = json::parse(ran.out), profile = report["profile"];
+  REQUIRE(profile.size() > 5);
+  CHECK(profile[0]["step"] == "whole");
+  double inside = 0.0;
+  for (const json& step : profile)
+    if (step["depth"] == 1) inside += step["seconds"].get<double>();
+  CHECK(inside <= profile[0]["seconds"]);
+  CHECK(inside >= 0.9 * profile[0]["seconds"].get<double>());
+}
+
 TEST_CASE("the chain of commands: surface, map, remesh, stream, prefix, distance") {
   const TemporaryFolder folder;
   const std::string mesh = write_bumpy(folder), map = folder.file("map.param.ply"), remeshed = folder.file("r.sr.ply"),

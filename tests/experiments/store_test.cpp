@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "experiments/store/database.h"
 #include "experiments/store/folder_lock.h"
 #include "experiments/sweep/sweep.h"
 #include "temporary_folder.h"
@@ -54,6 +55,7 @@ std::vector<StageResult> shared_stages() {
   StageResult map = result_of(StageKind::Parameterize, "map");
   map.numbers = {{"base_vertices", 20}, {"base_faces", 36}};
   map.artefacts = {{"map", "artefacts/m.param.ply"}};
+  map.steps = {{"simplify", 0, 1, 2.5, 3.5, 40.0}, {"price all vertices", 1, 2, 1.25, 1.5, 30.0}};
   StageResult remesh = result_of(StageKind::Remesh, "remesh");
   remesh.numbers = {{"level", 3}, {"remesh_error", 1e-4}};
   return {map, remesh};
@@ -95,6 +97,12 @@ TEST_CASE("a store gives back its cells: waiting, done with rows, failed with th
   CHECK(cells[0].artefact("map") == folder.file("artefacts/m.param.ply"));
   CHECK(cells[0].artefact("stream").empty());
   CHECK(*cells[0].number("base_faces") == 36);
+  const std::vector<ProfileStep>& steps = cells[0].stage(StageKind::Parameterize)->steps;
+  REQUIRE(steps.size() == 2);
+  CHECK(steps[0].name == "simplify");
+  CHECK(steps[1].name == "price all vertices");
+  CHECK((steps[1].depth == 1 && steps[1].runs == 2 && steps[1].seconds == 1.25));
+  CHECK((steps[1].cpu_seconds == 1.5 && steps[1].peak_megabytes == 30.0));
   CHECK_FALSE(cells[0].number("no such number"));
   CHECK(cells[0].options.budgets == std::vector<std::size_t>{512, 1024});
   const std::vector<CurvePoint> rows = cells[0].points();
@@ -109,6 +117,23 @@ TEST_CASE("a store gives back its cells: waiting, done with rows, failed with th
   CHECK(cells[1].status == CellStatus::Failed);
   CHECK(cells[1].cause == "solver-failed");
   CHECK(cells[1].points().empty());
+}
+
+TEST_CASE("a store from before steps were kept is read as it is, and takes them when it is written again") {
+  const TemporaryFolder folder;
+  {
+    Store store = Store::create(folder.path().string());
+    store.replace_plan(sample_plan("one"));
+    store.put(shared_stages());
+    Database(folder.file("results.sqlite"), Access::Write).execute("DROP TABLE step");
+  }
+  const auto steps = [](const Store& store) {
+    return store.cells("one").front().stage(StageKind::Parameterize)->steps.size();
+  };
+  CHECK(steps(Store::open(folder.path().string())) == 0);
+  Store store = Store::create(folder.path().string());
+  store.put(shared_stages());
+  CHECK(steps(store) == 2);
 }
 
 TEST_CASE("recipes share results, and the latest swept one is the default") {

@@ -96,6 +96,7 @@ TEST_CASE("a sweep runs every stage once, then finds everything done") {
   CHECK(first.stages_run == 2 * (4 + 4 + 1));
   CHECK(fs::exists(first.cells.front().artefact("map")));
   CHECK(fs::exists(first.cells.front().artefact("stream")));
+  CHECK_FALSE(first.cells.front().stage(StageKind::Parameterize)->steps.empty());
   const std::string csv = read_file(study.store() + "/curve.csv");
   CHECK(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) == points_of(first.cells).size() + 1);
 
