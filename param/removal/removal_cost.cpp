@@ -107,25 +107,44 @@ void RemovalCost::collect_samples() {
   }
 }
 
-RemovalCost::Terms RemovalCost::terms(const RingTriangle& t) const {
+/// What the terms are without samples.
+RemovalCost::Terms RemovalCost::outline(const RingTriangle& t) const {
   Terms result;
   const int n = star_.size();
-  const Complex f0 = ring_[t[0]], f1 = ring_[t[1]], f2 = ring_[t[2]];
   const Vec3 side1 = corner_[t[1]] - corner_[t[0]], side2 = corner_[t[2]] - corner_[t[0]];
   result.triangle_area = 0.5 * side1.cross(side2).norm();
   result.sigma = shape_distortion(length_[t[0] * n + t[1]], length_[t[1] * n + t[2]], length_[t[2] * n + t[0]],
                                   result.triangle_area);
   // A corner's Voronoi region is shared by the patches around it, six on average.
   result.area = (corner_area_[t[0]] + corner_area_[t[1]] + corner_area_[t[2]]) / 6.0;
+  result.undistorted = options_.gamma * squared(result.sigma - 1.0) +
+                       options_.mu * squared(outer_dispersion(t, result.triangle_area) - 1.0);
+  return result;
+}
+
+/// Adds what lies in the triangle to its outline. False, and no terms, as soon as the triangle's cost with `inner` is
+/// seen to be no less than `limit`: samples add to the area, δ to the cost, and rounding keeps the order of sums and
+/// products of what is not negative.
+bool RemovalCost::take_samples(const RingTriangle& t, double inner, double limit, Terms& terms) const {
+  if (inner + terms.area * terms.undistorted >= limit) return false;
+  const Complex f0 = ring_[t[0]], f1 = ring_[t[1]], f2 = ring_[t[2]];
+  const Vec3 side1 = corner_[t[1]] - corner_[t[0]], side2 = corner_[t[2]] - corner_[t[0]];
   // A difference in the plane is side1 and side2 by the weights cross(d, to2) and cross(to1, d).
   const double whole = cross(f1 - f0, f2 - f0);
   const Complex to1 = (f1 - f0) / whole, to2 = (f2 - f0) / whole;
-  const double g11 = side1.squaredNorm(), g12 = 2.0 * side1.dot(side2), g22 = side2.squaredNorm();
-  double sum = 0.0, lengths = 0.0;
+  const Sample* inside[kMostSamples];
+  int count = 0;
   for (const Sample& s : samples_) {
     const double w1 = cross(s.flat - f0, to2), w2 = cross(to1, s.flat - f0);
     if (w1 < kInside || w2 < kInside || 1.0 - w1 - w2 < kInside) continue;
-    result.area += s.area;
+    terms.area += s.area;
+    inside[count++] = &s;
+  }
+  if (inner + terms.area * terms.undistorted >= limit) return false;
+  const double g11 = side1.squaredNorm(), g12 = 2.0 * side1.dot(side2), g22 = side2.squaredNorm();
+  double sum = 0.0, lengths = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const Sample& s = *inside[i];
     for (int e = s.first_edge; e < s.last_edge; ++e) {
       const double x = cross(edges_[e].flat, to2), y = cross(to1, edges_[e].flat);
       const double stretched = (g11 * x * x + g12 * x * y + g22 * y * y) * edges_[e].inverse_square;
@@ -134,7 +153,13 @@ RemovalCost::Terms RemovalCost::terms(const RingTriangle& t) const {
       lengths += edges_[e].length;
     }
   }
-  if (lengths > 0.0) result.delta = sum / lengths;
+  if (lengths > 0.0) terms.delta = sum / lengths;
+  return true;
+}
+
+RemovalCost::Terms RemovalCost::terms(const RingTriangle& t) const {
+  Terms result = outline(t);
+  take_samples(t, 0.0, kInfinity, result);
   return result;
 }
 
@@ -171,10 +196,9 @@ void RemovalCost::fill_best() {
         const double inner = best_[i * n + k] + best_[k * n + j];
         if (inner >= best_[i * n + j] || cross(ring_[k] - ring_[i], ring_[j] - ring_[i]) < kSmallestFlatArea) continue;
         const RingTriangle triangle{i, k, j};
-        const Terms x = terms(triangle);
-        const double rho = outer_dispersion(triangle, x.triangle_area);
-        const double cost = inner + x.area * (options_.gamma * squared(x.sigma - 1.0) +
-                                              options_.mu * squared(rho - 1.0) + squared(x.delta - 1.0));
+        Terms x = outline(triangle);
+        if (!take_samples(triangle, inner, best_[i * n + j], x)) continue;
+        const double cost = inner + x.area * (x.undistorted + squared(x.delta - 1.0));
         if (cost < best_[i * n + j]) {
           best_[i * n + j] = cost;
           split_[i * n + j] = k;

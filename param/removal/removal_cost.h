@@ -38,6 +38,8 @@ class RemovalCost {
   bool leaves_surface(const Star& star) const;
 
  private:
+  static constexpr int kMostSamples = kSamples + 1;  ///< with the vertex itself
+
   struct Sample {
     Complex flat;
     double area;
@@ -49,12 +51,15 @@ class RemovalCost {
   };
   struct Terms {
     double area = 0.0, sigma = 1.0, delta = 1.0, triangle_area = 0.0;
+    double undistorted = 0.0;  ///< cost of a unit of area without δ
   };
 
   void lay_out(int vertex);
   void collect_samples();
   void add_sample(int vertex, Complex flat, double weight);
   bool flat_of(int vertex, Complex& flat) const;
+  Terms outline(const RingTriangle& t) const;
+  bool take_samples(const RingTriangle& t, double inner, double limit, Terms& terms) const;
   Terms terms(const RingTriangle& t) const;
   double outer_dispersion(const RingTriangle& t, double area) const;
   bool is_free_edge(int i, int j) const;
