@@ -29,9 +29,15 @@ double shape_distortion(double ab, double bc, double ca, double area) {
 }
 }  // namespace
 
-RemovalCost::RemovalCost(const Surface& surface, const TriangleComplex& complex, const std::vector<Location>& locations,
-                         const std::vector<std::vector<int>>& points, const ParameterizeOptions& options)
-    : surface_(surface), complex_(complex), locations_(locations), points_(points), options_(options) {}
+RemovalCost::RemovalCost(const Surface& surface, const NeighbourLists& neighbours, const TriangleComplex& complex,
+                         const std::vector<Location>& locations, const std::vector<std::vector<int>>& points,
+                         const ParameterizeOptions& options)
+    : surface_(surface),
+      neighbours_(neighbours),
+      complex_(complex),
+      locations_(locations),
+      points_(points),
+      options_(options) {}
 
 /// What the terms of all triangles over the ring share.
 void RemovalCost::lay_out(int vertex) {
@@ -78,12 +84,12 @@ bool RemovalCost::flat_of(int vertex, Complex& flat) const {
 void RemovalCost::add_sample(int vertex, Complex flat, double weight) {
   Sample sample{flat, weight * surface_.vertex_area[vertex], static_cast<int>(edges_.size()), 0};
   const Vec3& here = surface_.mesh.positions[vertex];
-  surface_.for_each_neighbour(vertex, [&](int other, int, bool) {
+  for (int other : neighbours_[vertex]) {
     Complex end;
-    if (!flat_of(other, end)) return;
+    if (!flat_of(other, end)) continue;
     const double square = (surface_.mesh.positions[other] - here).squaredNorm();
     edges_.push_back({end - flat, std::sqrt(square), 1.0 / square});
-  });
+  }
   sample.last_edge = static_cast<int>(edges_.size());
   samples_.push_back(sample);
 }

@@ -4,6 +4,7 @@
 
 #include "param/options.h"
 #include "param/removal/location.h"
+#include "param/removal/neighbour_lists.h"
 
 namespace gsp {
 
@@ -24,8 +25,10 @@ class RemovalCost {
   static constexpr int kSamples = 32;
   static constexpr int kLargestRing = 32;
 
-  RemovalCost(const Surface& surface, const TriangleComplex& complex, const std::vector<Location>& locations,
-              const std::vector<std::vector<int>>& points, const ParameterizeOptions& options);
+  /// `neighbours`: of the surface. Keeps references to all of them.
+  RemovalCost(const Surface& surface, const NeighbourLists& neighbours, const TriangleComplex& complex,
+              const std::vector<Location>& locations, const std::vector<std::vector<int>>& points,
+              const ParameterizeOptions& options);
 
   /// From here on an edge inside the complex may join two of its boundary vertices.
   void allow_chords() { chords_ = true; }
@@ -67,6 +70,7 @@ class RemovalCost {
   void fill_best();
 
   const Surface& surface_;
+  const NeighbourLists& neighbours_;
   const TriangleComplex& complex_;
   const std::vector<Location>& locations_;
   const std::vector<std::vector<int>>& points_;

@@ -5,14 +5,16 @@
 namespace gsp {
 
 TriangleComplex::TriangleComplex(const Surface& surface)
-    : corners_(surface.mesh.faces),
-      neighbours_(surface.mesh.faces.size()),
+    : slots_(surface.mesh.faces.size()),
       incident_(surface.mesh.positions.size(), -1),
       seams_(surface.seams),
       copies_(surface.seams.points) {
-  for (int h = 0; h < static_cast<int>(surface.halfedges.twin.size()); ++h) {
-    const int twin = surface.halfedges.twin[h];
-    neighbours_[h / 3][h % 3] = twin < 0 ? -1 : twin / 3;
+  for (std::size_t f = 0; f < slots_.size(); ++f) {
+    slots_[f].corners = surface.mesh.faces[f];
+    for (int k = 0; k < 3; ++k) {
+      const int twin = surface.halfedges.twin[3 * f + k];
+      slots_[f].neighbours[k] = twin < 0 ? -1 : twin / 3;
+    }
   }
   for (std::size_t v = 0; v < incident_.size(); ++v)
     if (surface.halfedges.outgoing[v] >= 0) incident_[v] = surface.halfedges.outgoing[v] / 3;
@@ -56,15 +58,9 @@ void TriangleComplex::label_components(const Surface& surface) {
   }
 }
 
-int TriangleComplex::corner_index(int triangle, int vertex) const {
-  for (int k = 0; k < 3; ++k)
-    if (corners_[triangle][k] == vertex) return k;
-  return -1;
-}
-
 int TriangleComplex::edge_towards(int triangle, int other) const {
   for (int k = 0; k < 3; ++k)
-    if (neighbours_[triangle][k] == other) return k;
+    if (slots_[triangle].neighbours[k] == other) return k;
   return -1;
 }
 
@@ -75,33 +71,33 @@ void TriangleComplex::gather(int vertex, Star& star) const {
   star.boundary = loop_[vertex] >= 0;
   int t = incident_[vertex];
   if (star.boundary) {  // clockwise to the first triangle of the fan
-    for (int before = t; before >= 0; before = neighbours_[t][corner_index(t, vertex)]) t = before;
+    for (int before = t; before >= 0; before = slots_[t].neighbours[corner_index(t, vertex)]) t = before;
   }
   const int first = t;
   do {
     const int m = corner_index(t, vertex);
     star.triangles.push_back(t);
-    star.ring.push_back(corners_[t][(m + 1) % 3]);
-    const int next = neighbours_[t][(m + 2) % 3];
-    if (next < 0) star.ring.push_back(corners_[t][(m + 2) % 3]);
+    star.ring.push_back(slots_[t].corners[(m + 1) % 3]);
+    const int next = slots_[t].neighbours[(m + 2) % 3];
+    if (next < 0) star.ring.push_back(slots_[t].corners[(m + 2) % 3]);
     t = next;
   } while (t >= 0 && t != first);
 }
 
 bool TriangleComplex::edge_at(int a, int b) const {
   const int first = incident_[a];
+  const bool copied = seams_.point_of(b) >= 0;
   const auto has = [&](int t) {
-    return corner_index(t, b) >= 0 ||
-           (seams_.point_of(b) >= 0 &&
-            std::any_of(corners_[t].begin(), corners_[t].end(), [&](int v) { return seams_.same(v, b); }));
+    return corner_index(t, b) >= 0 || (copied && std::any_of(slots_[t].corners.begin(), slots_[t].corners.end(),
+                                                             [&](int v) { return seams_.same(v, b); }));
   };
   int t = first;
   do {  // counter-clockwise
     if (has(t)) return true;
-    t = neighbours_[t][(corner_index(t, a) + 2) % 3];
+    t = slots_[t].neighbours[(corner_index(t, a) + 2) % 3];
   } while (t >= 0 && t != first);
   if (t == first) return false;
-  for (t = neighbours_[first][corner_index(first, a)]; t >= 0; t = neighbours_[t][corner_index(t, a)])
+  for (t = slots_[first].neighbours[corner_index(first, a)]; t >= 0; t = slots_[t].neighbours[corner_index(t, a)])
     if (has(t)) return true;
   return false;
 }
@@ -133,23 +129,24 @@ void TriangleComplex::replace(const Star& star, const std::vector<RingTriangle>&
     const int slot = slots[i];
     for (int k = 0; k < 3; ++k) {
       const int a = triangles[i][k], b = triangles[i][(k + 1) % 3];
-      corners_[slot][k] = star.ring[a];
+      slots_[slot].corners[k] = star.ring[a];
       incident_[star.ring[a]] = slot;
       if ((a + 1) % n == b && !(star.boundary && b == 0)) {
-        neighbours_[slot][k] = outer[a];
-        if (outer[a] >= 0) neighbours_[outer[a]][outer_edge[a]] = slot;
+        slots_[slot].neighbours[k] = outer[a];
+        if (outer[a] >= 0) slots_[outer[a]].neighbours[outer_edge[a]] = slot;
         continue;
       }
-      neighbours_[slot][k] = -1;
+      slots_[slot].neighbours[k] = -1;
       for (auto& d : open)
         if (d[0] == b && d[1] == a) {
-          neighbours_[slot][k] = d[2];
-          neighbours_[d[2]][d[3]] = slot;
+          slots_[slot].neighbours[k] = d[2];
+          slots_[d[2]].neighbours[d[3]] = slot;
         }
       open.push_back({a, b, slot, k});
     }
   }
-  for (std::size_t i = triangles.size(); i < star.triangles.size(); ++i) corners_[star.triangles[i]] = {-1, -1, -1};
+  for (std::size_t i = triangles.size(); i < star.triangles.size(); ++i)
+    slots_[star.triangles[i]].corners = {-1, -1, -1};
   incident_[star.center] = -1;
   const int other = seams_.other_of(star.center);
   if (other < 0 || incident_[other] < 0) --component_size_[component_[star.center]];

@@ -34,13 +34,16 @@ class TriangleComplex {
  public:
   explicit TriangleComplex(const Surface& surface);
 
-  const Triangle& corners(int triangle) const { return corners_[triangle]; }
-  bool alive(int triangle) const { return corners_[triangle][0] >= 0; }
-  int slot_count() const { return static_cast<int>(corners_.size()); }
+  const Triangle& corners(int triangle) const { return slots_[triangle].corners; }
+  bool alive(int triangle) const { return slots_[triangle].corners[0] >= 0; }
+  int slot_count() const { return static_cast<int>(slots_.size()); }
   /// Across the edge from corner k to corner k+1; -1 on a boundary.
-  int neighbour(int triangle, int k) const { return neighbours_[triangle][k]; }
+  int neighbour(int triangle, int k) const { return slots_[triangle].neighbours[k]; }
   /// Index of the vertex in the triangle's corners, -1 if it is none of them.
-  int corner_index(int triangle, int vertex) const;
+  int corner_index(int triangle, int vertex) const {
+    const Triangle& c = slots_[triangle].corners;
+    return c[0] == vertex ? 0 : c[1] == vertex ? 1 : c[2] == vertex ? 2 : -1;
+  }
   /// Index of the edge of `triangle` behind which `other` lies, -1 if they are no neighbours.
   int edge_towards(int triangle, int other) const;
 
@@ -66,8 +69,12 @@ class TriangleComplex {
   void label_components(const Surface& surface);
   bool edge_at(int a, int b) const;
 
-  std::vector<Triangle> corners_;
-  std::vector<std::array<int, 3>> neighbours_;
+  struct Slot {
+    Triangle corners;
+    std::array<int, 3> neighbours;
+  };
+
+  std::vector<Slot> slots_;  ///< corners beside neighbours, since a walk around a vertex asks for both
   std::vector<int> incident_;
   std::vector<int> component_, component_size_;
   std::vector<int> loop_, loop_size_;

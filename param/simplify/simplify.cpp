@@ -55,11 +55,13 @@ class Simplifier {
       : surface_(surface),
         options_(options),
         progress_(progress),
+        neighbours_(*surface),
         map_(surface),
         start_(used_vertices(*surface)),
         stop_(start_),
         remaining_(start_),
-        pricers_(kBlocks, RemovalCost(*surface_, map_.complex(), map_.locations(), map_.points(), options_)) {}
+        pricers_(kBlocks,
+                 RemovalCost(*surface_, neighbours_, map_.complex(), map_.locations(), map_.points(), options_)) {}
 
   SimplifyResult run(int coarsest);
 
@@ -95,6 +97,7 @@ class Simplifier {
   std::shared_ptr<const Surface> surface_;
   const ParameterizeOptions& options_;
   Progress& progress_;
+  const NeighbourLists neighbours_;
   VertexMap map_;
   const int start_;  ///< vertices of the surface
   AutomaticStop stop_;
