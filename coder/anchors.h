@@ -4,10 +4,11 @@
 #include <optional>
 #include <vector>
 
+#include "mesh/export.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// What someone would use instead: one coded size and the surface that comes back.
 struct AnchorPoint {

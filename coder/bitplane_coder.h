@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "coder/edge_forest.h"
+#include "mesh/export.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 using Bytes = std::vector<std::uint8_t>;
 

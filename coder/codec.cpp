@@ -38,9 +38,10 @@ void check(const SemiregularMesh& mesh, const EncodeOptions& options) {
   if (mesh.control && !mesh.creases.empty())
     throw Error(Cause::BadOption, "displaced meshes with creases are not coded: their surface is smooth");
   if (mesh.base_faces.empty()) throw Error(Cause::NoFaces, "a mesh without base faces cannot be coded");
+  require_well_formed(mesh);
   require_computable(mesh.positions);
   std::vector<bool> used(mesh.base_vertices, false);
-  for (const Triangle& t : base_level(mesh.base_vertices, mesh.base_faces, mesh.creases, mesh.corners).faces)
+  for (const Triangle& t : mesh.base_faces)
     for (int v : t) used[v] = true;
   for (int v = 0; v < mesh.base_vertices; ++v)
     if (!used[v]) throw Error(Cause::Malformed, "a base vertex belongs to no face", Element::Vertex, v);

@@ -7,10 +7,11 @@
 
 #include "coder/bitplane_coder.h"
 #include "coder/wavelet_transform.h"
+#include "mesh/export.h"
 #include "mesh/progress.h"
 #include "remesh/semiregular.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 using Bytes = std::vector<std::uint8_t>;
 

@@ -3,9 +3,10 @@
 #include <array>
 #include <vector>
 
+#include "mesh/export.h"
 #include "remesh/semiregular.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// The trees of edges over which details are coded (algorithms.md §6; Khodakovsky, Schröder, Sweldens 2000). A node is
 /// the detail of one edge; nodes are numbered level by level in edge order, roots (the base edges) first. The children

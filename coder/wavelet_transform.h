@@ -3,10 +3,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesh/export.h"
 #include "mesh/progress.h"
 #include "remesh/semiregular.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// Loop's low-pass with its quadrature-mirror high-pass of 19 taps (the progressive geometry coder's) or of 11 taps;
 /// Butterfly interpolation, whose unlifted details keep the normality of normal meshes, and lifted to have no mean.

@@ -4,7 +4,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace gsp {
+#include "mesh/export.h"
+
+namespace GSP_PUBLIC gsp {
 
 /// Why an operation could not be done. Each maps to one exit status of the command line (`exit_status`).
 enum class Cause {

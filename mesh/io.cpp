@@ -14,6 +14,7 @@
 #include "mesh/files/formats.h"
 #include "mesh/ply_elements.h"
 #include "mesh/read_file.h"
+#include "mesh/topology.h"
 
 namespace gsp {
 
@@ -124,6 +125,7 @@ Mesh read_mesh(const std::string& path) { return read_surface(path).mesh; }
 
 void write_mesh(const std::string& path, const Mesh& mesh, const std::vector<std::string>& comments) {
   const MeshFormat format = require_format(path);
+  require_indices(mesh);
   AtomicFile file(path);
   std::ostream& out = file.stream();
   switch (format) {

@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "mesh/export.h"
 #include "mesh/surface_file.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 struct ReadOptions {
   /// Joins vertices that lie within this share of the diagonal of the surface's bounding box, 0..kLargestWeld; 0 joins
@@ -35,7 +36,7 @@ Mesh read_mesh(const std::string& path);
 /// Writes by the name's ending: PLY (binary little-endian, double), OBJ, OFF (shortest decimals that read back as the
 /// same numbers), STL (binary, single precision). `comments` go into the formats that have them, all but STL. The file
 /// is written whole under another name and renamed, so a reader never sees half of one. Throws Error: UnknownFormat,
-/// CannotWrite.
+/// IndexOutOfRange, CannotWrite.
 void write_mesh(const std::string& path, const Mesh& mesh, const std::vector<std::string>& comments = {});
 
 }  // namespace gsp

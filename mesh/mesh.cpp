@@ -1,6 +1,7 @@
 #include "mesh/mesh.h"
 
 #include "mesh/bounding_box.h"
+#include "mesh/topology.h"
 
 namespace gsp {
 
@@ -12,6 +13,7 @@ Eigen::AlignedBox3d bounding_box(const Mesh& mesh) {
 }
 
 double bounding_box_diagonal(const Mesh& mesh) {
+  require_indices(mesh);
   return mesh.faces.empty() ? 0.0 : bounding_box(mesh).diagonal().norm();
 }
 
@@ -23,6 +25,7 @@ double face_area(const Mesh& mesh, int face) {
 }
 
 double surface_area(const Mesh& mesh) {
+  require_indices(mesh);
   double sum = 0.0;
   for (int f = 0; f < mesh.face_count(); ++f) sum += face_area(mesh, f);
   return sum;

@@ -4,7 +4,9 @@
 #include <array>
 #include <vector>
 
-namespace gsp {
+#include "mesh/export.h"
+
+namespace GSP_PUBLIC gsp {
 
 using Vec3 = Eigen::Vector3d;
 
@@ -23,13 +25,13 @@ struct Mesh {
 };
 
 /// Length of the diagonal of the axis-aligned box of all vertices that a face uses; 0 for a mesh without faces.
-/// It is the peak that PSNR is taken against. O(V + F).
+/// It is the peak that PSNR is taken against. Throws Error(IndexOutOfRange). O(V + F).
 double bounding_box_diagonal(const Mesh& mesh);
 
-/// Area of one face, 0 for a degenerate one.
+/// Area of one face, 0 for a degenerate one. The face and its vertices exist.
 double face_area(const Mesh& mesh, int face);
 
-/// Sum of all face areas, in face order.
+/// Sum of all face areas, in face order. Throws Error(IndexOutOfRange).
 double surface_area(const Mesh& mesh);
 
 }  // namespace gsp

@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <functional>
 
-namespace gsp {
+#include "mesh/export.h"
+
+namespace GSP_PUBLIC gsp {
 
 /// Number of threads that `parallel_for` uses; 0 asks for all cores. It holds for the whole process, TBB's other users
 /// included, so the program or a test sets it once and the library never does.

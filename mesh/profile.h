@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
-namespace gsp {
+#include "mesh/export.h"
+
+namespace GSP_PUBLIC gsp {
 
 /// CPU time of this process so far, all threads, and of its children that have ended, as external methods do.
 double process_cpu_seconds();

@@ -4,9 +4,10 @@
 #include <string>
 
 #include "mesh/error.h"
+#include "mesh/export.h"
 #include "mesh/profile.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// How a long stage tells what it does and asks whether to go on. Default-constructed it is silent.
 /// Called from the thread that runs the stage only. Stages report at most a few hundred times.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mesh/halfedges.h"
+#include "mesh/topology.h"
 
 namespace gsp::shapes {
 
@@ -255,6 +256,7 @@ Mesh twice(const Mesh& mesh, const Vec3& offset) {
 }
 
 Mesh quadrisect(const Mesh& mesh) {
+  require_indices(mesh);
   const Halfedges he(mesh);
   int edge_count = 0;
   const std::vector<int> number = edge_numbers(he, edge_count);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "mesh/export.h"
 #include "mesh/mesh.h"
 
+namespace GSP_PUBLIC gsp {
 /// Known shapes for tests, benchmarks and samples. Closed ones are oriented outward, flat ones towards +z.
-namespace gsp::shapes {
+namespace shapes {
 
 /// Corners of the cube (±1, ±1, ±1); edges of length 2√2.
 Mesh tetrahedron();
@@ -47,4 +49,5 @@ Mesh twice(const Mesh& mesh, const Vec3& offset);
 /// of first appearance over the faces. Faces are numbered as `SubdivisionLevel` has it. O(F log F).
 Mesh quadrisect(const Mesh& mesh);
 
-}  // namespace gsp::shapes
+}  // namespace shapes
+}  // namespace gsp

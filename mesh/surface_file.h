@@ -4,9 +4,10 @@
 #include <vector>
 
 #include "mesh/error.h"
+#include "mesh/export.h"
 #include "mesh/mesh.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// How a file counts the vertices and polygons that a surface was read from.
 struct Numbering {

@@ -35,12 +35,6 @@ Error out_of_range(int face, int vertices) {
                Element::Face, face);
 }
 
-void require_indices(const Mesh& mesh) {
-  require_countable(mesh.positions.size(), mesh.faces.size());
-  for (int f = 0; f < mesh.face_count(); ++f)
-    if (!in_range(mesh.faces[f], mesh)) throw out_of_range(f, mesh.vertex_count());
-}
-
 /// Without squares, which small numbers lose. A single point has nothing to lose.
 bool too_small(const Eigen::AlignedBox3d& box) {
   const double extent = box.sizes().maxCoeff();
@@ -307,6 +301,12 @@ void require_computable(const std::vector<Vec3>& positions) {
     box.extend(positions[v]);
   }
   if (!box.isEmpty() && too_small(box)) throw Error(Cause::TooSmall, kTooSmall);
+}
+
+void require_indices(const Mesh& mesh) {
+  require_countable(mesh.positions.size(), mesh.faces.size());
+  for (int f = 0; f < mesh.face_count(); ++f)
+    if (!in_range(mesh.faces[f], mesh)) throw out_of_range(f, mesh.vertex_count());
 }
 
 void require_finite_surface(const Mesh& mesh) {

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "mesh/error.h"
+#include "mesh/export.h"
 #include "mesh/mesh.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// One connected component (by edges) of the faces.
 struct ComponentReport {
@@ -63,6 +64,10 @@ TopologyReport topology_report(const Mesh& mesh);
 
 /// Throws the report's refusal, if any.
 void require_parameterizable(const Mesh& mesh);
+
+/// Throws IndexOutOfRange with the first face that names a vertex that does not exist, Malformed for more than can be
+/// numbered. O(F). Functions that take a caller's mesh begin with it, or with a check that includes it.
+void require_indices(const Mesh& mesh);
 
 /// The least that measuring and drawing need. Throws NoFaces for a mesh without faces, IndexOutOfRange for a face that
 /// names a vertex that does not exist, and what `require_computable` throws. O(V + F).

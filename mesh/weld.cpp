@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <tuple>
 
+#include "mesh/topology.h"
+
 namespace gsp {
 
 std::vector<int> first_at_same_position(const std::vector<Vec3>& positions) {
@@ -95,6 +97,7 @@ std::vector<int> first_within(const std::vector<Vec3>& positions, double distanc
 }
 
 WeldedMesh weld(const Mesh& mesh, const std::vector<int>& first) {
+  require_indices(mesh);
   std::vector<int> left(first.size());
   WeldedMesh welded;
   for (int v = 0; v < mesh.vertex_count(); ++v) {

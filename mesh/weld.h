@@ -2,9 +2,10 @@
 
 #include <vector>
 
+#include "mesh/export.h"
 #include "mesh/mesh.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// For every position the smallest index at exactly the same place (+0 and -0 agree, a NaN agrees with its own bits).
 /// O(n log n), whatever the positions are, which a hash table of hostile input is not.

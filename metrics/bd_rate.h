@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace gsp {
+#include "mesh/export.h"
+
+namespace GSP_PUBLIC gsp {
 
 /// One point of a rate-distortion curve.
 struct BdPoint {

@@ -49,6 +49,7 @@ std::vector<Weighted> squared(std::vector<Weighted> values) {
 }  // namespace
 
 Distortion distortion(const Parameterization& map) {
+  require_well_formed(map);
   const Faces faces(map);
   Distortion result;
   for (const FaceMap& face : faces.maps) {
@@ -70,6 +71,7 @@ Distortion distortion(const Parameterization& map) {
 }
 
 FaceDistortion face_distortion(const Parameterization& map) {
+  require_well_formed(map);
   const Faces faces(map);
   return {faces.values(anisotropy), faces.values(area), faces.values(stretch_l2), faces.values(sorkine)};
 }

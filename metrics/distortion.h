@@ -2,10 +2,11 @@
 
 #include <vector>
 
+#include "mesh/export.h"
 #include "metrics/statistics.h"
 #include "param/map/parameterization.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// Distortion of a map by the singular values s1 >= s2 of its faces' maps from chart to surface. Where lengths or areas
 /// matter they are in units in which total area on the surface is total area in the charts: then 1 is neutral for s1,
@@ -27,7 +28,7 @@ struct Distortion {
 };
 
 /// Flipped faces count into `flipped_faces` and enter the statistics by their absolute area; faces without area in
-/// their chart count as flipped and have no values. O(F log F).
+/// their chart count as flipped and have no values. Throws the errors of `require_well_formed`. O(F log F).
 Distortion distortion(const Parameterization& map);
 
 /// #F values per face (singular values), for pictures; 0 for faces without area on the surface or in the chart.

@@ -2,11 +2,12 @@
 
 #include <cstddef>
 
+#include "mesh/export.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
 #include "metrics/surface_distance.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// A distance between surfaces that is certainly in [lower, upper], in the coordinates' own unit.
 struct DistanceBounds {

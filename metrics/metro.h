@@ -2,11 +2,12 @@
 
 #include <cstddef>
 
+#include "mesh/export.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
 #include "metrics/surface_distance.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// One direction as Metro reports it. Its samples at vertices, edges and faces weigh the same, so mean and RMS are not
 /// those over area.

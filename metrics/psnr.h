@@ -1,10 +1,11 @@
 #pragma once
 
+#include "mesh/export.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
 #include "metrics/surface_distance.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// Peak signal-to-noise ratios go by several definitions, which differ by up to some 5 dB: none is printed without its
 /// name, peak and formula.

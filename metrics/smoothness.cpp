@@ -167,6 +167,7 @@ bool in_one_patch(const Parameterization& map, const Diamond& d) {
 }  // namespace
 
 Smoothness smoothness(const Parameterization& map) {
+  require_well_formed(map);
   const std::vector<FaceMap> maps = face_maps(map);
   const double unit = 1.0 / std::sqrt(area_scale(maps));
   std::vector<char> corner(map.surface.positions.size(), 0);

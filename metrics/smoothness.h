@@ -3,10 +3,11 @@
 #include <optional>
 #include <vector>
 
+#include "mesh/export.h"
 #include "metrics/statistics.h"
 #include "param/map/parameterization.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// How smooth a map is: on each edge between two faces, the Frobenius norm of the difference of the two faces' first
 /// derivatives (the map from chart to surface, 2 x 2), which the paper's figure 1 shows. The second face is unfolded
@@ -33,7 +34,8 @@ struct Smoothness {
 };
 
 /// Statistics are weighted by a third of both faces' area. Edges of a face without area on the surface or in its chart,
-/// and those of one or of more than two faces, are left out. The map is well-formed. O(F log F).
+/// and those of one or of more than two faces, are left out. Throws the errors of
+/// `require_well_formed`. O(F log F).
 Smoothness smoothness(const Parameterization& map);
 
 }  // namespace gsp

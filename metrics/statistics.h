@@ -2,7 +2,9 @@
 
 #include <vector>
 
-namespace gsp {
+#include "mesh/export.h"
+
+namespace GSP_PUBLIC gsp {
 
 /// Weighted statistics of a quantity. Percentiles are values that occur: the least that holds that share of the weight.
 struct Statistics {

@@ -5,10 +5,11 @@
 #include <memory>
 #include <vector>
 
+#include "mesh/export.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// Exact nearest point on a triangle surface: a bounding volume hierarchy, built once, asked from any thread.
 /// A triangle without area still is a segment or a point that can be the nearest.

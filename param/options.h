@@ -3,9 +3,10 @@
 #include <optional>
 #include <string>
 
+#include "mesh/export.h"
 #include "mesh/features/features.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// How the map over the base complex is made.
 enum class Method {

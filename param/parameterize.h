@@ -3,13 +3,14 @@
 #include <string>
 #include <vector>
 
+#include "mesh/export.h"
 #include "mesh/mesh.h"
 #include "mesh/progress.h"
 #include "param/creases/feature_budget.h"
 #include "param/map/parameterization.h"
 #include "param/options.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 struct ParameterizeResult {
   Parameterization map;

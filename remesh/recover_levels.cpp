@@ -6,6 +6,7 @@
 
 #include "mesh/error.h"
 #include "mesh/io.h"
+#include "mesh/topology.h"
 #include "remesh/semiregular_file.h"
 
 namespace gsp {
@@ -149,6 +150,7 @@ std::vector<int> compact(std::vector<Triangle>& faces, int vertices) {
 }  // namespace
 
 SemiregularMesh recover_levels(const Mesh& mesh) {
+  require_indices(mesh);
   std::vector<Coarsening> levels;  // finest first
   SemiregularMesh result;
   result.base_faces = mesh.faces;

@@ -2,10 +2,11 @@
 
 #include <string>
 
+#include "mesh/export.h"
 #include "mesh/io.h"
 #include "remesh/semiregular.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// The base and the levels of a plain mesh with subdivision connectivity, as many levels as there are, at least one:
 /// each quadrisection is undone by telling its old vertices from its new ones (Taubin 2002, "Detecting and

@@ -1,11 +1,12 @@
 #pragma once
 
+#include "mesh/export.h"
 #include "mesh/progress.h"
 #include "param/map/parameterization.h"
 #include "remesh/remesh_options.h"
 #include "remesh/semiregular.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// Quadrisects the base and maps every dyadic point through the parameterization to the surface (paper §4); fitted
 /// positions are then moved to where the faces between them, instead of the points, are nearest to the surface.

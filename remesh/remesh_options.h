@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
-namespace gsp {
+#include "mesh/export.h"
+
+namespace GSP_PUBLIC gsp {
 
 /// What the vertices of a remesh are.
 enum class Positions {

@@ -10,6 +10,12 @@ namespace gsp {
 
 namespace {
 
+void require_level(int level) {
+  if (level < 0 || level > kMaxSubdivisionLevel)
+    throw Error(Cause::BadOption,
+                "subdivision level " + std::to_string(level) + " is not in 0.." + std::to_string(kMaxSubdivisionLevel));
+}
+
 void check_face(int base_vertices, const Triangle& t, int face) {
   for (int vertex : t)
     if (vertex < 0 || vertex >= base_vertices)
@@ -156,9 +162,7 @@ SubdivisionLevel subdivide(const SubdivisionLevel& coarse) {
 
 std::vector<SubdivisionLevel> subdivision_levels(int base_vertices, const std::vector<Triangle>& base_faces, int level,
                                                  const Creases& creases, const std::vector<int>& corners) {
-  if (level < 0 || level > kMaxSubdivisionLevel)
-    throw Error(Cause::BadOption,
-                "subdivision level " + std::to_string(level) + " is not in 0.." + std::to_string(kMaxSubdivisionLevel));
+  require_level(level);
   std::vector<SubdivisionLevel> levels;
   levels.reserve(level + 1);
   levels.push_back(base_level(base_vertices, base_faces, creases, corners));
@@ -166,7 +170,25 @@ std::vector<SubdivisionLevel> subdivision_levels(int base_vertices, const std::v
   return levels;
 }
 
+void require_well_formed(const SemiregularMesh& mesh) {
+  require_level(mesh.level);
+  if (mesh.base_vertices < 0) throw Error(Cause::Malformed, "a mesh has a negative number of base vertices");
+  const SubdivisionLevel base = base_level(mesh.base_vertices, mesh.base_faces, mesh.creases, mesh.corners);
+  std::size_t vertices = base.vertex_count, edges = base.edges.size(), faces = base.faces.size();
+  for (int l = 0; l < mesh.level; ++l) {
+    vertices += edges;
+    edges = 2 * edges + 3 * faces;
+    faces *= 4;
+  }
+  if (mesh.positions.size() != vertices)
+    throw Error(Cause::Malformed, "a semi-regular mesh of " + std::to_string(vertices) + " vertices has " +
+                                      std::to_string(mesh.positions.size()) + " positions");
+  if (mesh.control && mesh.control->points.size() != static_cast<std::size_t>(mesh.base_vertices))
+    throw Error(Cause::Malformed, "a displaced mesh has not as many control points as base vertices");
+}
+
 Mesh SemiregularMesh::mesh() const {
+  require_well_formed(*this);
   SubdivisionLevel finest = base_level(base_vertices, base_faces);
   for (int l = 0; l < level; ++l) finest = subdivide(finest);
   return {positions, std::move(finest.faces)};

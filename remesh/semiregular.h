@@ -4,9 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "mesh/export.h"
 #include "mesh/mesh.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// Base edges across which a surface is not smooth: pairs a < b of base vertices, in ascending order.
 using Creases = std::vector<std::array<int, 2>>;
@@ -112,10 +113,14 @@ struct SemiregularMesh {
   Creases creases = {};
   std::vector<int> corners = {};  ///< base vertices at which a crease bends, ascending (crease_corners.h)
 
-  /// The finest level as a plain mesh.
+  /// The finest level as a plain mesh. Throws what `require_well_formed` throws.
   Mesh mesh() const;
   /// Levels 0 to `level`, with the creases. Throws what `subdivision_levels` throws.
   std::vector<SubdivisionLevel> levels() const;
 };
+
+/// Throws where the arrays do not fit together: the errors of `subdivision_levels`, and Malformed where the finest
+/// level has not as many vertices as there are positions, or the base not as many as control points. O(base faces).
+void require_well_formed(const SemiregularMesh& mesh);
 
 }  // namespace gsp

@@ -3,9 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "mesh/export.h"
 #include "remesh/semiregular.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// Writes `*.sr.ply`: a plain PLY (binary little-endian, double) with comments `gsp semiregular 1`, `level L`,
 /// `base_vertices B`, `base_faces F` and then `provenance`, one "key value" a line, which says how the mesh was made

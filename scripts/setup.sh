@@ -12,6 +12,7 @@ gsp_packages=(
   libeigen3-dev libopenmesh-dev libdraco-dev libtbb-dev libsuitesparse-dev libopenblas-dev liblbfgs-dev
   libcli11-dev nlohmann-json3-dev libfmt-dev libtomlplusplus-dev libsqlite3-dev libxxhash-dev catch2 libcgal-dev libbenchmark-dev gnuplot-nox
   libpng-dev libjs-three libboost-dev
+  pybind11-dev python3-dev python3-numpy python3-pytest python3-matplotlib pkg-config
 )
 # A cluster of one node, for the test of sweeps through Slurm; Draco's tools, for that of external codecs.
 [ "${CI-}" != true ] || gsp_packages+=(slurm-wlm munge draco)

@@ -13,6 +13,7 @@
 #include "mesh/edge.h"
 #include "mesh/error.h"
 #include "mesh/halfedges.h"
+#include "mesh/topology.h"
 
 namespace gsp {
 
@@ -263,6 +264,7 @@ FeatureEdges edges_of(const std::vector<FeatureCurve>& curves) {
 
 FeatureEdges edges_sharper_than(const Mesh& mesh, double degrees) {
   require_angle(degrees);
+  require_indices(mesh);
   const Halfedges halfedges(mesh);
   const std::vector<double> angle = dihedral_angles(mesh, halfedges);
   FeatureEdges edges;

@@ -3,9 +3,10 @@
 #include <array>
 #include <vector>
 
+#include "mesh/export.h"
 #include "mesh/mesh.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// Feature edges of a surface: sharp ones, of two faces each, as pairs of vertices a < b, ascending.
 using FeatureEdges = std::vector<std::array<int, 2>>;

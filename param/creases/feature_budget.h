@@ -1,9 +1,10 @@
 #pragma once
 
+#include "mesh/export.h"
 #include "mesh/features/features.h"
 #include "param/options.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// The features along which a surface is cut.
 struct ChosenFeatures {

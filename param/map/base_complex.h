@@ -3,10 +3,11 @@
 #include <array>
 #include <vector>
 
+#include "mesh/export.h"
 #include "mesh/mesh.h"
 #include "param/map/lattice.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// The abstract parameter domain: base triangles, each an equilateral chart with corners 0, 1, ω, glued along edges.
 struct BaseComplex {

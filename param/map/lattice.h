@@ -5,7 +5,9 @@
 #include <complex>
 #include <cstdint>
 
-namespace gsp {
+#include "mesh/export.h"
+
+namespace GSP_PUBLIC gsp {
 
 using Complex = std::complex<double>;
 

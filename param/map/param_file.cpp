@@ -238,6 +238,7 @@ void read_creases(Input& in, int count, BaseComplex& base) {
 }  // namespace
 
 void write_parameterization(const std::string& path, const Parameterization& map) {
+  require_well_formed(map);
   Output out;
   out.buffer() = header(map);
   for (int v = 0; v < map.surface.vertex_count(); ++v) {

@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "mesh/export.h"
 #include "mesh/mesh.h"
 #include "param/map/base_complex.h"
 #include "param/map/lattice.h"
 
-namespace gsp {
+namespace GSP_PUBLIC gsp {
 
 /// A map of a surface onto its base complex, piecewise linear over the surface's faces.
 struct Parameterization {

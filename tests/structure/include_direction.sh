@@ -23,7 +23,7 @@ refuse() {
 # may_include FOLDER ALLOWED: files of FOLDER include, of our folders, itself and ALLOWED (separated by |) only.
 may_include() {
   local folder=$1 allowed=$2 part others=''
-  for part in mesh param remesh coder metrics experiments cli; do
+  for part in mesh param remesh coder metrics experiments cli python; do
     [[ "|$folder|$allowed|" == *"|$part|"* ]] || others+="${others:+|}$part"
   done
   refuse "$folder may include $allowed only" "^ *# *include *\"($others)/" "$folder"/**/*.h "$folder"/**/*.cpp
@@ -60,6 +60,8 @@ may_include remesh 'param|mesh'
 may_include coder 'remesh|mesh'
 may_include metrics 'param|mesh'
 may_include experiments 'mesh|param|remesh|coder|metrics'
+may_include cli 'mesh|param|remesh|coder|metrics|experiments'
+may_include python 'mesh|param|remesh|coder|metrics|experiments'
 rooms mesh files features
 rooms param map atlas linear refined energy removal simplify reinsert corners baselines creases stages
 rooms remesh filters normal displaced scalar
