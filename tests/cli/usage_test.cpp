@@ -31,7 +31,7 @@ TEST_CASE("the help of every command gives the default and range of every option
       const bool flag = contains(entry, "--help") || contains(entry, "--json") || contains(entry, "--quiet") ||
                         contains(entry, "--verbose") || contains(entry, "--check ") ||
                         contains(entry, "--no-anchors") || contains(entry, "--no-figures") ||
-                        contains(entry, "--metro ") || contains(entry, "--mpeg ");
+                        contains(entry, "--metro ") || contains(entry, "--mpeg ") || contains(entry, "--profile ");
       CHECK((flag || contains(entry, "[") || contains(entry, "(required)")));
     };
     while (std::getline(lines, line)) {
