@@ -137,6 +137,15 @@ Levels make_levels(std::shared_ptr<const Surface> surface, const ParameterizeOpt
   return {std::move(surface), coarsest, std::move(simplified)};
 }
 
+/// What is wrong with a map that is not valid.
+std::string faults(const MapCheck& check) {
+  std::ostringstream text;
+  text << check.flipped_faces << " flipped faces, " << check.wrong_angle_vertices << " vertices with a wrong angle, "
+       << check.mismatched_edges << " mismatched edges, " << check.torn_edges << " torn edges, "
+       << check.misplaced_vertices << " vertices outside their chart, relative area error " << check.area_error;
+  return text.str();
+}
+
 /// The map without folds that `make` has of the first simplification. Where its levels cannot be joined the last one is
 /// made larger, at the end as large as the surface. Nothing where that fails as well.
 std::optional<SmoothedMap> join_levels(const Levels& first, const ParameterizeOptions& options,
@@ -144,16 +153,21 @@ std::optional<SmoothedMap> join_levels(const Levels& first, const ParameterizeOp
                                        Progress& progress) {
   const int whole = first.surface->mesh.vertex_count();
   int coarsest = first.coarsest;
+  std::string why;
   const auto joined = [&](const std::optional<SmoothedMap>& map) {
     const auto step = progress.step("check map");
-    return map && (coarsest >= whole || check_map(map->atlas.finish({})).valid());
+    why = "a vertex has no place";
+    if (!map || coarsest >= whole) return map.has_value();
+    const MapCheck check = check_map(map->atlas.finish({}));
+    why = faults(check);
+    return check.valid();
   };
   std::optional<SmoothedMap> map = make(first.simplified);
   while (!joined(map)) {
     if (coarsest >= whole) return std::nullopt;
     coarsest = std::min(whole, kLargerLevel * coarsest);
-    progress.note("the levels of the map could not be joined; the last one starts with " + std::to_string(coarsest) +
-                  " vertices instead");
+    progress.note("the levels of the map could not be joined (" + why + "); the last one starts with " +
+                  std::to_string(coarsest) + " vertices instead");
     map = make(simplify(first.surface, options, coarsest, progress));
   }
   const int added = map->atlas.surface->mesh.vertex_count() - whole;
@@ -264,14 +278,7 @@ ParameterizeResult finish(const Mesh& input, const Start& start, Method method, 
   if (method == Method::Gsp) {
     result.features = start.features;
     const MapCheck check = check_map(result.map);
-    if (!check.valid()) {
-      std::ostringstream why;
-      why << "the map is not valid: " << check.flipped_faces << " flipped faces, " << check.wrong_angle_vertices
-          << " vertices with a wrong angle, " << check.mismatched_edges << " mismatched edges, " << check.torn_edges
-          << " torn edges, " << check.misplaced_vertices << " vertices outside their chart, relative area error "
-          << check.area_error;
-      throw Error(Cause::InvalidMap, why.str());
-    }
+    if (!check.valid()) throw Error(Cause::InvalidMap, "the map is not valid: " + faults(check));
   }
   return result;
 }
