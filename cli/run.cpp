@@ -5,14 +5,19 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <utility>
+#include <vector>
 
 #include "cli/command.h"
+#include "cli/manual.h"
 #include "cli/print.h"
 #include "experiments/cells/suggest.h"
 #include "experiments/version.h"
+#include "mesh/atomic_file.h"
 #include "mesh/parallel.h"
 
 namespace gsp::cli {
@@ -22,6 +27,26 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kWrongUsage = 2;
 
+// The program as its own author of man pages and completions, for the build.
+void add_manual(CLI::App& app, Context& context) {
+  CLI::App* const command = app.add_subcommand("manual", "man pages and shell completions, into DIR");
+  const auto folder = std::make_shared<std::string>();
+  command->add_option("DIR", *folder)->required();
+  command->group("");
+  command->callback([&app, &context, folder] {
+    context.action = [&app, folder] {
+      for (const ManualFile& page : manual(app)) {
+        const std::filesystem::path path = std::filesystem::path(*folder) / page.path;
+        std::filesystem::create_directories(path.parent_path());
+        AtomicFile file(path.string());
+        file.stream() << page.text;
+        file.commit();
+      }
+      return 0;
+    };
+  });
+}
+
 void add_commands(CLI::App& app, Context& context) {
   app.set_version_flag("--version", std::string("gsp ") + version());
   app.require_subcommand(1);
@@ -29,10 +54,18 @@ void add_commands(CLI::App& app, Context& context) {
       "Exit status: 0 done, 1 failed, 2 wrong usage, 3 unusable input, 130 interrupted.\n"
       "Data go to standard output, progress and errors to standard error. gsp COMMAND --help lists a command's "
       "options.");
-  for (auto* add :
-       {add_curve, add_info, add_parameterize, add_remesh, add_encode, add_decode, add_distance, add_distortion,
-        add_picture, add_report, add_sweep, add_sweep_worker, add_baseline, add_check, add_export})
-    add(app, context);
+  add_manual(app, context);
+  const std::vector<std::pair<const char*, std::vector<void (*)(CLI::App&, Context&)>>> steps = {
+      {"The whole chain", {add_curve, add_report}},
+      {"Surfaces", {add_info, add_distance, add_picture}},
+      {"Step by step", {add_parameterize, add_distortion, add_remesh, add_encode, add_decode}},
+      {"Many runs", {add_sweep, add_sweep_worker, add_baseline, add_check, add_export}}};
+  for (const auto& [step, commands] : steps)
+    for (const auto& add : commands) {
+      add(app, context);
+      CLI::App* const command = app.get_subcommands({}).back();
+      if (!command->get_group().empty()) command->group(step);  // hidden ones have none
+    }
 }
 
 std::string meant(const std::string& word, const std::vector<std::string>& known) {

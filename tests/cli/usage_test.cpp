@@ -1,12 +1,23 @@
 #include <catch2/catch.hpp>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <sstream>
 
 #include "cli.h"
 #include "experiments/cells/suggest.h"
+#include "temporary_folder.h"
 
 namespace {
 
 const std::vector<std::string> kCommands = {"info",     "parameterize", "remesh", "encode",  "decode",
                                             "distance", "distortion",   "curve",  "picture", "report"};
+
+std::string text_of(const std::string& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
 
 }  // namespace
 
@@ -120,4 +131,37 @@ TEST_CASE("edit distance counts insertions, deletions, substitutions and swaps")
   CHECK(edit_distance("kitten", "sitting") == 3);
   CHECK(edit_distance("levle", "level") == 1);
   CHECK(edit_distance("--bytes", "--byte") == 1);
+}
+
+TEST_CASE("man pages and completions hold every option of every command") {
+  const TemporaryFolder folder;
+  CHECK(gsp_run({"manual", folder.file("share")}).status == 0);
+  const std::string bash = text_of(folder.file("share/bash-completion/completions/gsp"));
+  const std::string zsh = text_of(folder.file("share/zsh/site-functions/_gsp"));
+  const std::string fish = text_of(folder.file("share/fish/vendor_completions.d/gsp.fish"));
+  const std::regex name("--([a-z][a-z-]*)");
+  for (const std::string& command : kCommands) {
+    CAPTURE(command);
+    const std::string page = text_of(folder.file("share/man/man1/gsp-" + command + ".1"));
+    std::istringstream lines(gsp_run({command, "--help"}).out);
+    for (std::string line; std::getline(lines, line);) {
+      const std::string head = line.substr(0, 28);
+      std::smatch match;
+      if (line.rfind("  -", 0) != 0 || !std::regex_search(head, match, name)) continue;
+      const std::string option = match[1];
+      CAPTURE(option);
+      CHECK(contains(page, std::regex_replace("--" + option, std::regex("-"), "\\-")));
+      CHECK(contains(bash, "--" + option));
+      CHECK(contains(zsh, "'--" + option));
+      CHECK(contains(fish, "from " + command + "'"));
+      CHECK(contains(fish, "-l " + option));
+    }
+  }
+  CHECK(contains(text_of(folder.file("share/man/man1/gsp.1")), "Step by step"));
+  const std::string completed = folder.file("completed");
+  const std::string script = "source " + (folder.file("share/bash-completion/completions/gsp")) +
+                             "; COMP_WORDS=(gsp remesh --kind n); COMP_CWORD=3; _gsp; echo \"${COMPREPLY[*]}\" >" +
+                             completed;
+  CHECK(std::system(("bash -c '" + script + "'").c_str()) == 0);
+  CHECK(text_of(completed) == "normal\n");
 }
