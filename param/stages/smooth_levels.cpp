@@ -1,6 +1,7 @@
 #include "param/stages/smooth_levels.h"
 
 #include "param/atlas/best_map.h"
+#include "param/atlas/mend_charts.h"
 #include "param/corners/choose_base_flips.h"
 #include "param/corners/descend_corners.h"
 #include "param/corners/relax_corners.h"
@@ -70,6 +71,7 @@ SmoothingRecord smooth_coarsest(EditableAtlas& map, const ParameterizeOptions& o
 /// A map that a coarser level has made smooth on the large.
 void smooth_finer(EditableAtlas& map, const ParameterizeOptions& options, Progress& progress) {
   map.atlas.reassign_all();
+  mend_charts(map.atlas);
   if (options.relaxations > 0) relax_or_descend(map.atlas, options, progress);
   lower_distortion_locally(map.atlas, kSweeps, progress);
   coarsen_map(map, progress);
