@@ -74,14 +74,20 @@ std::vector<std::string> provenance(const Mesh& input, const ParameterizeOptions
   return lines;
 }
 
+/// What one kind of method starts from: a map without folds, and the cut surface that it is a map of.
+template <class Map>
+struct Begun {
+  std::optional<Map> map;
+  std::optional<CutSurface> cut;   ///< where the surface has features
+  ChosenFeatures features;         ///< along which it is cut
+  std::vector<int> base_vertices;  ///< of the surface, as the simplification behind `map` left them
+  std::vector<OmegaRecord> omega;
+};
+
 /// What the methods on one base complex share.
 struct Start {
-  std::optional<Atlas> maps;          ///< for the baselines alone
-  std::optional<SmoothedMap> smooth;  ///< for Method::Gsp alone
-  std::vector<int> base_vertices;     ///< of the surface, as the simplification behind `smooth` left them
-  std::vector<OmegaRecord> omega;
-  std::optional<CutSurface> cut;  ///< what `smooth` is a map of, where the surface has features
-  ChosenFeatures features;
+  Begun<Atlas> maps;          ///< for the baselines alone
+  Begun<SmoothedMap> smooth;  ///< for Method::Gsp alone
 };
 
 /// Copies what is told of a smooth map, and counts how its corners moved.
@@ -130,12 +136,49 @@ struct Levels {
   SimplifyResult simplified;
 };
 
+void note_base(const Levels& levels, const ParameterizeOptions& options, Progress& progress) {
+  const Surface& surface = *levels.surface;
+  const int left = surface.seams.count_whole(remaining_vertices(surface, levels.simplified.removals));
+  if (options.base_vertices > 0 && left > options.base_vertices)
+    progress.note("no further vertex can be removed: the base has " + std::to_string(left) + " vertices instead of " +
+                  std::to_string(options.base_vertices));
+}
+
 Levels make_levels(std::shared_ptr<const Surface> surface, const ParameterizeOptions& options, Progress& progress) {
   const auto step = progress.step("simplify");
   const int coarsest = coarsest_level(*surface, options);
   SimplifyResult simplified = simplify(surface, options, coarsest, progress);
-  return {std::move(surface), coarsest, std::move(simplified)};
+  Levels levels = {std::move(surface), coarsest, std::move(simplified)};
+  note_base(levels, options, progress);
+  return levels;
 }
+
+/// The simplifications of a surface cut open along its features, and of the whole, each made when first asked for.
+class Simplifications {
+ public:
+  Simplifications(Mesh mesh, const FeatureEdges& features, const ParameterizeOptions& options, Progress& progress)
+      : mesh_(std::move(mesh)), options_(options), progress_(progress) {
+    if (!features.empty()) cut_ = cut_surface(mesh_, features);
+  }
+
+  /// Nothing where the surface has no features.
+  const std::optional<CutSurface>& cut() const { return cut_; }
+  const Levels& of_cut() {
+    if (!of_cut_) of_cut_.emplace(make_levels(cut_->surface, options_, progress_));
+    return *of_cut_;
+  }
+  const Levels& of_whole() {
+    if (!of_whole_) of_whole_.emplace(make_levels(std::make_shared<const Surface>(mesh_), options_, progress_));
+    return *of_whole_;
+  }
+
+ private:
+  const Mesh mesh_;
+  const ParameterizeOptions& options_;
+  Progress& progress_;
+  std::optional<CutSurface> cut_;
+  std::optional<Levels> of_cut_, of_whole_;
+};
 
 /// What is wrong with a map that is not valid.
 std::string faults(const MapCheck& check) {
@@ -175,32 +218,32 @@ std::optional<SmoothedMap> join_levels(const Levels& first, const ParameterizeOp
   return map;
 }
 
-[[noreturn]] void refuse_levels() {
-  throw Error(Cause::InvalidMap, "no map of the surface could be made: its levels cannot be joined");
-}
-
-/// What the smooth map starts from on one surface, cut open or whole. False where none could be made.
-bool make_smooth(const Levels& levels, const ParameterizeOptions& options, Start& start, Progress& progress) {
+/// Sets the smooth map of one surface, cut open or whole; nothing where none could be made.
+void set_map(Begun<SmoothedMap>& begun, const Levels& levels, const ParameterizeOptions& options, Progress& progress) {
   ParameterizeOptions smoothing = options;
   if (options.objective == Objective::Linear) {  // it relaxes the corners of its own solution
     smoothing.relaxations = 0;
     smoothing.base_edges = BaseEdges::Keep;
   }
   const auto make = [&](const SimplifyResult& simplified) {
-    start.base_vertices = remaining_vertices(*levels.surface, simplified.removals);
+    begun.base_vertices = remaining_vertices(*levels.surface, simplified.removals);
     return smooth_levels(simplified, smoothing, progress);
   };
-  start.smooth = join_levels(levels, options, make, progress);
-  start.omega = levels.simplified.omega;
-  return start.smooth.has_value();
+  begun.map = join_levels(levels, options, make, progress);
 }
 
-void note_base(const Levels& levels, const ParameterizeOptions& options, Progress& progress) {
-  const Surface& surface = *levels.surface;
-  const int left = surface.seams.count_whole(remaining_vertices(surface, levels.simplified.removals));
-  if (options.base_vertices > 0 && left > options.base_vertices)
-    progress.note("no further vertex can be removed: the base has " + std::to_string(left) + " vertices instead of " +
-                  std::to_string(options.base_vertices));
+/// The same for MAPS' map, whose vertices on feature curves go to their places, so that the map can be glued.
+void set_map(Begun<Atlas>& begun, const Levels& levels, const ParameterizeOptions& options, Progress& progress) {
+  const auto make = [](const SimplifyResult& simplified) -> std::optional<SmoothedMap> {
+    const std::optional<OverlayMap> maps = maps_overlay(simplified);
+    if (!maps) return std::nullopt;
+    return SmoothedMap{maps->coarsened().atlas, {}};
+  };
+  const std::optional<SmoothedMap> maps = join_levels(levels, options, make, progress);
+  begun.map.reset();
+  if (!maps) return;
+  begun.map = maps->atlas;
+  if (!settle_creases(*begun.map, progress)) begun.map.reset();
 }
 
 void note_features(const ChosenFeatures& features, Progress& progress) {
@@ -210,76 +253,80 @@ void note_features(const ChosenFeatures& features, Progress& progress) {
   if (features.curves + features.given_way > 0) progress.note(note);
 }
 
-/// Makes the smooth map's start on the surface cut open along its features; without them where there are none, or no
-/// map of it could be made. `whole`: the levels of the whole surface, made where they are needed.
-void make_smooth_start(const Mesh& mesh, const FeatureEdges& features, std::optional<Levels>& whole,
-                       const ParameterizeOptions& options, Start& start, Progress& progress) {
-  if (!features.empty()) {
-    start.cut = cut_surface(mesh, features);
-    const Levels levels = make_levels(start.cut->surface, options, progress);
-    note_base(levels, options, progress);
-    if (make_smooth(levels, options, start, progress)) return;
+/// Makes a map on the surface cut open along its features; without them where there are none, or no map of it could be
+/// made.
+template <class Map>
+Begun<Map> begin_map(Simplifications& simplifications, const ChosenFeatures& features,
+                     const ParameterizeOptions& options, Progress& progress) {
+  Begun<Map> begun;
+  begun.features = features;
+  if (simplifications.cut()) {
+    begun.cut = simplifications.cut();
+    begun.omega = simplifications.of_cut().simplified.omega;
+    set_map(begun, simplifications.of_cut(), options, progress);
+    if (begun.map) return begun;
     progress.note("no map of the surface with its feature curves could be made: it is made without them");
-    start.features.given_way += std::exchange(start.features.curves, 0);
-    start.features.edges.clear();
-    start.cut.reset();
+    begun.features.given_way += std::exchange(begun.features.curves, 0);
+    begun.features.edges.clear();
+    begun.cut.reset();
   }
-  if (!whole) whole.emplace(make_levels(std::make_shared<const Surface>(mesh), options, progress));
-  note_base(*whole, options, progress);
-  if (!make_smooth(*whole, options, start, progress)) refuse_levels();
+  begun.omega = simplifications.of_whole().simplified.omega;
+  set_map(begun, simplifications.of_whole(), options, progress);
+  if (!begun.map) throw Error(Cause::InvalidMap, "no map of the surface could be made: its levels cannot be joined");
+  return begun;
 }
 
-/// Simplifies the surface and makes what the methods start from: the baselines on the first simplification that has
-/// MAPS' map, whichever methods stand beside them, and without features.
-Start make_start(const Mesh& mesh, ChosenFeatures chosen, const std::vector<Method>& methods,
+/// Simplifies the surface and makes what the methods start from, the same whichever stand beside each other.
+Start make_start(const Mesh& mesh, const ChosenFeatures& chosen, const std::vector<Method>& methods,
                  const ParameterizeOptions& options, Progress& progress) {
-  Start start;
-  start.features = std::move(chosen);
-  FeatureEdges features = start.features.edges;
-  const Mesh fine = refined(mesh, features, options, progress);
+  FeatureEdges features = chosen.edges;
+  Mesh fine = refined(mesh, features, options, progress);
+  Simplifications simplifications(std::move(fine), features, options, progress);
   const auto smooth_ones = std::count(methods.begin(), methods.end(), Method::Gsp);
-  std::optional<Levels> whole;
-  if (smooth_ones < static_cast<int>(methods.size())) {
-    whole.emplace(make_levels(std::make_shared<const Surface>(fine), options, progress));
-    if (smooth_ones == 0) note_base(*whole, options, progress);
-    start.omega = whole->simplified.omega;
-    const auto make = [](const SimplifyResult& simplified) -> std::optional<SmoothedMap> {
-      const std::optional<OverlayMap> maps = maps_overlay(simplified);
-      if (!maps) return std::nullopt;
-      return SmoothedMap{maps->coarsened().atlas, {}};
-    };
-    const auto maps = join_levels(*whole, options, make, progress);
-    if (!maps) refuse_levels();
-    start.maps = maps->atlas;
-  }
-  if (smooth_ones > 0) make_smooth_start(fine, features, whole, options, start, progress);
+  Start start;
+  if (smooth_ones < static_cast<int>(methods.size()))
+    start.maps = begin_map<Atlas>(simplifications, chosen, options, progress);
+  if (smooth_ones > 0) start.smooth = begin_map<SmoothedMap>(simplifications, chosen, options, progress);
   return start;
+}
+
+/// The map of one of the baselines, which all start from MAPS'.
+Atlas baseline(Atlas atlas, Method method, const ParameterizeOptions& options, ParameterizeResult& result,
+               Progress& progress) {
+  if (method == Method::MapsSmoothed) result.flips_before_repair = smooth_by_loop(atlas, progress);
+  if (method == Method::Hybrid)
+    relax_patch_pairs(atlas, LinearWeights(*atlas.surface, options.weights), kPairPasses, progress);
+  return atlas;
+}
+
+void require_valid(const Parameterization& map) {
+  const MapCheck check = check_map(map);
+  if (!check.valid()) throw Error(Cause::InvalidMap, "the map is not valid: " + faults(check));
+}
+
+/// Makes the map on the surface whole again, and tells of how it began.
+template <class Map>
+void close_map(const Atlas& atlas, const Begun<Map>& begun, ParameterizeResult& result) {
+  result.map = atlas.finish({});
+  if (begun.cut) result.map = glue_map(std::move(result.map), *begun.cut);
+  result.features = begun.features;
+  result.omega = begun.omega;
 }
 
 ParameterizeResult finish(const Mesh& input, const Start& start, Method method, const ParameterizeOptions& options,
                           Progress& progress) {
   ParameterizeResult result;
   const auto step = progress.step(std::string("finish ") + method_name(method));
-  Atlas atlas;
   if (method == Method::Gsp) {
-    SmoothedMap map = *start.smooth;
+    SmoothedMap map = *start.smooth.map;
     if (options.objective == Objective::Linear) map = linear_map(map.atlas, options, progress);
-    describe(map, start.base_vertices, result);
-    atlas = std::move(map.atlas);
+    describe(map, start.smooth.base_vertices, result);
+    close_map(map.atlas, start.smooth, result);
+    require_valid(result.map);
   } else {
-    atlas = *start.maps;
+    close_map(baseline(*start.maps.map, method, options, result, progress), start.maps, result);
   }
-  if (method == Method::MapsSmoothed) result.flips_before_repair = smooth_by_loop(atlas, progress);
-  if (method == Method::Hybrid)
-    relax_patch_pairs(atlas, LinearWeights(*atlas.surface, options.weights), kPairPasses, progress);
-  result.map = atlas.finish({});
-  if (method == Method::Gsp && start.cut) result.map = glue_map(std::move(result.map), *start.cut);
   result.map.provenance = provenance(input, options, method, result.map.base);
-  if (method == Method::Gsp) {
-    result.features = start.features;
-    const MapCheck check = check_map(result.map);
-    if (!check.valid()) throw Error(Cause::InvalidMap, "the map is not valid: " + faults(check));
-  }
   return result;
 }
 
@@ -293,14 +340,12 @@ std::vector<ParameterizeResult> parameterize_all(const Mesh& mesh, const std::ve
   if (shortening.any()) progress.note("the surface is long and thin, and so are its patches");
   Mesh image = mesh;
   if (shortening.any()) shortening.press(image);
-  const bool smooth = std::count(methods.begin(), methods.end(), Method::Gsp) > 0;
-  ChosenFeatures features = smooth ? choose_features(mesh, options) : ChosenFeatures{};
+  const ChosenFeatures features = choose_features(mesh, options);
   note_features(features, progress);
-  const Start start = make_start(image, std::move(features), methods, options, progress);
+  const Start start = make_start(image, features, methods, options, progress);
   std::vector<ParameterizeResult> results;
   for (Method method : methods) {
     ParameterizeResult& result = results.emplace_back(finish(mesh, start, method, options, progress));
-    result.omega = start.omega;
     if (!shortening.any()) continue;
     std::vector<Vec3>& positions = result.map.surface.positions;
     shortening.draw_out(result.map.surface);

@@ -156,6 +156,28 @@ TEST_CASE("the curves of known shapes end as chains of base edges of a valid map
   check_creased(lens, creased(lens, 12));
 }
 
+TEST_CASE("the baselines have the creases too, alone as beside others") {
+  const Mesh box = shapes::box(3);
+  ParameterizeOptions options;
+  options.base_vertices = 20;
+  options.feature_degrees = kAutoFeatures;
+  options.relaxations = 0;
+  options.base_edges = BaseEdges::Keep;
+  Progress progress;
+  const std::vector<Method> methods = {Method::Gsp, Method::Maps, Method::MapsSmoothed, Method::Hybrid};
+  const auto together = parameterize_all(box, methods, options, progress);
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    INFO(method_name(methods[m]));
+    CHECK(together[m].map.base.vertices == together[0].map.base.vertices);
+    CHECK(together[m].map.base.creases == together[0].map.base.creases);
+    check_creased(box, together[m]);
+    options.method = methods[m];
+    const ParameterizeResult alone = parameterize(box, options, progress);
+    CHECK(alone.map.position == together[m].map.position);
+    CHECK(alone.map.face_corners == together[m].map.face_corners);
+  }
+}
+
 TEST_CASE("a slit that ends inside the surface, and one that ends on its boundary, become creases") {
   const Mesh grid = shapes::grid(16, 16);
   ParameterizeOptions options;
