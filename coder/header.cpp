@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<std::uint8_t, 3> kMagic = {'P', 'G', 'C'};
 constexpr std::size_t kChecksumBegin = kMagic.size() + 1, kChecksumEnd = kChecksumBegin + 4;
-constexpr std::uint8_t kOldestVersion = 6, kCreaseVersion = 8, kSteadyVersion = 8;
+constexpr std::uint8_t kOldestVersion = 6, kSteadyVersion = 8, kCreaseVersion = 8, kByAreaVersion = 9;
 /// In the byte of the wavelet: creases follow the base's faces.
 constexpr int kCreased = 8;
 /// Sums of it and a control point's steps are exact in double precision, multiplied by a grid of 3 bits too.
@@ -181,6 +181,7 @@ StreamHeader read_header(const std::uint8_t* begin, const std::uint8_t* end) {
   Parser parser(begin, end);
   size_of_rest(parser);
   StreamHeader header;
+  if (begin[kMagic.size()] < kByAreaVersion) header.frames = FrameRule::Steady;
   if (begin[kMagic.size()] < kSteadyVersion) header.frames = FrameRule::Mean;
   const int transform = parser.byte();
   const bool creased = begin[kMagic.size()] >= kCreaseVersion && (transform & kCreased) != 0;

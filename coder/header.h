@@ -20,9 +20,9 @@ enum class StreamKind : std::uint8_t {
 };
 inline constexpr int kStreamKinds = 3;
 
-/// The version that is written. Those of 7, which have no creases and frames of their own, and of 6, all parametric,
-/// are read too.
-inline constexpr std::uint8_t kStreamVersion = 8;
+/// The version that is written. Those of 8 and 7, which have frames of their own, the latter no creases, and of 6, all
+/// parametric, are read too.
+inline constexpr std::uint8_t kStreamVersion = 9;
 
 /// Everything that a decoder needs before the first bit-plane. On disk (`*.pgc`):
 ///
@@ -38,7 +38,7 @@ struct StreamHeader {
   StreamKind kind = StreamKind::Parametric;
   Wavelet wavelet = Wavelet::Loop;
   int tangential_ratio = 4;
-  FrameRule frames = FrameRule::Steady;  ///< follows from the version
+  FrameRule frames = FrameRule::ByArea;  ///< follows from the version
   int level = 0;
   int base_planes = 0;
   int detail_planes = 0;

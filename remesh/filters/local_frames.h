@@ -14,8 +14,11 @@ using Frame = Eigen::Matrix3d;
 
 /// How a frame's normal follows from the positions.
 enum class FrameRule : std::uint8_t {
-  /// A continuous function of the positions: of two faces that lie on each other the first has more weight, a face of
-  /// hardly any area has less. Encoder and decoder, whose positions differ by rounding, have the same frames.
+  /// By the faces' areas, so that a thin face, whose normal turns with the least move of a corner, hardly counts: the
+  /// frames of a prefix are near those of the whole stream. Of two faces that lie on each other the first has more
+  /// weight. Continuous, so that encoder and decoder, whose positions differ by rounding, have the same frames.
+  ByArea,
+  /// Both faces alike, but for those of hardly any area; continuous too. Of streams of version 8.
   Steady,
   /// The mean of both normals, whatever it is: where faces lie on each other, as in flat parts, its direction is the
   /// rounding's. Of streams up to version 7.
@@ -27,7 +30,7 @@ enum class FrameRule : std::uint8_t {
 class EdgeFrames {
  public:
   /// Keeps references to both. O(F).
-  EdgeFrames(const SubdivisionLevel& level, const std::vector<Vec3>& positions, FrameRule rule = FrameRule::Steady);
+  EdgeFrames(const SubdivisionLevel& level, const std::vector<Vec3>& positions, FrameRule rule = FrameRule::ByArea);
 
   Frame operator()(int edge) const;
 
@@ -35,7 +38,12 @@ class EdgeFrames {
   const SubdivisionLevel& level_;
   const std::vector<Vec3>& positions_;
   FrameRule rule_;
-  std::vector<Vec3> normals_;  ///< #F, unit or shorter
+  struct FaceNormal {
+    Vec3 vector;
+    double length;  ///< at least that of the vector: more where the face is thin
+  };
+  std::vector<FaceNormal> normals_;  ///< #F
+  static const FaceNormal kNoFace;   ///< across a boundary
 };
 
 }  // namespace gsp

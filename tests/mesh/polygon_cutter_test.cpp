@@ -57,16 +57,26 @@ void check_tiling(const Polygon& polygon) {
   }
 }
 
-bool segments_meet(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const auto on = [](const Vec3& p, const Vec3& q, const Vec3& r) {
-    return cross(p, q, r) == 0.0 && (r - p).dot(r - q) <= 0.0;
-  };
-  if (on(a, b, c) || on(a, b, d) || on(c, d, a) || on(c, d, b)) return true;
-  return (cross(a, b, c) > 0) != (cross(a, b, d) > 0) && (cross(c, d, a) > 0) != (cross(c, d, b) > 0);
+/// A corner on the grid. Plain numbers: a build with sanitizers takes twenty times as long for vectors.
+struct GridPoint {
+  int x, y;
+};
+
+int cross(GridPoint a, GridPoint b, GridPoint c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+
+/// The product of the ways from p to a and to b.
+int dot_from(GridPoint p, GridPoint a, GridPoint b) { return (a.x - p.x) * (b.x - p.x) + (a.y - p.y) * (b.y - p.y); }
+
+bool segments_meet(GridPoint a, GridPoint b, GridPoint c, GridPoint d) {
+  const int abc = cross(a, b, c), abd = cross(a, b, d), cda = cross(c, d, a), cdb = cross(c, d, b);
+  if ((abc == 0 && dot_from(c, a, b) <= 0) || (abd == 0 && dot_from(d, a, b) <= 0) ||
+      (cda == 0 && dot_from(a, c, d) <= 0) || (cdb == 0 && dot_from(b, c, d) <= 0))
+    return true;
+  return (abc > 0) != (abd > 0) && (cda > 0) != (cdb > 0);
 }
 
-/// Two sides that meet though they are not neighbours; empty for a simple polygon.
-std::optional<std::pair<int, int>> meeting_sides(const Polygon& p) {
+/// Two sides that meet though they are not neighbours; nothing for a simple polygon.
+std::optional<std::pair<int, int>> meeting_sides(const std::vector<GridPoint>& p) {
   const int n = static_cast<int>(p.size());
   for (int i = 0; i < n; ++i)
     for (int j = i + 2; j < n; ++j)
@@ -77,11 +87,11 @@ std::optional<std::pair<int, int>> meeting_sides(const Polygon& p) {
 /// Random points of a grid, so that many are collinear, in an order without crossings where turning parts round finds
 /// one.
 std::optional<Polygon> random_polygon(Random& random, int corners, int grid) {
-  Polygon p;
+  std::vector<GridPoint> p;
   for (int i = 0; i < corners; ++i) {
-    const auto at = [&] { return static_cast<double>(random.next() % static_cast<std::uint64_t>(grid)); };
-    const double x = at(), y = at();
-    p.push_back({x, y, 0.0});
+    const auto at = [&] { return static_cast<int>(random.next() % static_cast<std::uint64_t>(grid)); };
+    const int x = at(), y = at();
+    p.push_back({x, y});
   }
   for (int tries = 0; tries < 40 * corners; ++tries) {
     const auto meeting = meeting_sides(p);
@@ -89,13 +99,15 @@ std::optional<Polygon> random_polygon(Random& random, int corners, int grid) {
     std::reverse(p.begin() + meeting->first + 1, p.begin() + meeting->second + 1);
   }
   const int n = corners;
-  for (int i = 0; i < n; ++i)  // neighbours may still fold back onto each other
-    if (cross(p[i], p[(i + 1) % n], p[(i + 2) % n]) == 0.0 &&
-        (p[i] - p[(i + 1) % n]).dot(p[(i + 2) % n] - p[(i + 1) % n]) >= 0.0)
-      return std::nullopt;
+  for (int i = 0; i < n; ++i) {  // neighbours may still fold back onto each other
+    const GridPoint before = p[i], here = p[(i + 1) % n], after = p[(i + 2) % n];
+    if (cross(before, here, after) == 0 && dot_from(here, before, after) >= 0) return std::nullopt;
+  }
   if (meeting_sides(p)) return std::nullopt;
-  if (shoelace(p) < 0.0) std::reverse(p.begin(), p.end());
-  return p;
+  Polygon polygon;
+  for (const GridPoint& corner : p) polygon.push_back(Vec3(corner.x, corner.y, 0.0));
+  if (shoelace(polygon) < 0.0) std::reverse(polygon.begin(), polygon.end());
+  return polygon;
 }
 
 /// Teeth along x, each of four corners, on a bar.
