@@ -274,7 +274,7 @@ void Command::parameterize_options(ParameterizeOptions& options) {
             "whether base edges are flipped where that lowers the distortion, or kept as the simplification left them");
   axis_word("features", &CellOptions::parameterize, options,
             "curves of sharp edges that become chains of base edges: found by themselves, or edges at N degrees and "
-            "over; with the method gsp alone");
+            "over; none for the paper's map, which runs across them");
   axis_word("weights", &CellOptions::parameterize, options, "of the linear objective and of corner relaxation");
 }
 
@@ -306,7 +306,7 @@ void Command::replicate_option(ParameterizeOptions& options) {
 
 void Command::remesh_options(RemeshOptions& options) {
   axis_word("level", &CellOptions::remesh, options,
-            "quadrisections of the base; auto is the first level with as many faces as the input");
+            "quadrisections of the base; auto is the first level with as many faces as the input, and 32768");
   axis_word("predict", &CellOptions::remesh, options,
             "of normal kinds, what details are added to: name the wavelet that codes them; butterfly-lifted with "
             "fitted positions only, loop with sampled ones");

@@ -86,9 +86,9 @@ struct ParameterizeOptions {
   Weights weights = Weights::MeanValue;
   Corners corners = Corners::Relax;
   BaseEdges base_edges = BaseEdges::Flip;
-  /// Curves of sharp edges that become chains of base edges, for Method::Gsp alone: found by `detect_features`, none,
-  /// or all edges at or over a dihedral angle in 1 to 179 degrees.
-  int feature_degrees = kNoFeatures;
+  /// Curves of sharp edges that become chains of base edges: found by `detect_features`, none, or all edges at or over
+  /// a dihedral angle in 1 to 179 degrees. None for the paper's map, which runs across sharp edges.
+  int feature_degrees = kAutoFeatures;
   std::optional<FeatureEdges> features = {};  ///< these instead; interior edges of the surface
   /// Base vertices to stop at, at least 4, or `kBaseByOmega`. The simplification stops earlier, with a note, where no
   /// vertex can be removed any more.

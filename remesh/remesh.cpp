@@ -23,12 +23,15 @@ namespace gsp {
 
 namespace {
 
+/// Of a remesh whose level is automatic (bench/README.md, "The level of coarse surfaces").
+constexpr int kFewestFaces = 1 << 15;
+
 int chosen_level(const Parameterization& map, const RemeshOptions& options) {
   int level = options.level;
   if (level == RemeshOptions::kAutoLevel) {
+    const long long wanted = std::max<long long>(input_face_count(map), kFewestFaces);
     level = 0;
-    while (level < kMaxSubdivisionLevel && (static_cast<long long>(map.base.face_count()) << (2 * level)) <
-                                               static_cast<long long>(input_face_count(map)))
+    while (level < kMaxSubdivisionLevel && (static_cast<long long>(map.base.face_count()) << (2 * level)) < wanted)
       ++level;
   }
   if (level < 0 || level > kMaxSubdivisionLevel)

@@ -52,7 +52,8 @@ Prediction prediction_of(const std::string& word);
 
 struct RemeshOptions {
   /// Quadrisections of the base, 0..kMaxSubdivisionLevel, or kAutoLevel: the first level with at least as many faces as
-  /// the surface, or the deepest one.
+  /// the surface, and 32,768, or the deepest one. Fewer are worth it only where the remesh itself is to be small: long
+  /// flat faces and creases of a coarse surface want vertices that the coder hardly pays for.
   int level = kAutoLevel;
   static constexpr int kAutoLevel = 99;
   Positions positions = Positions::Fitted;

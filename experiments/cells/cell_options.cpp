@@ -111,7 +111,7 @@ std::vector<Axis> map_axes() {
        [](Options& o, const Value& v) {
          o.parameterize.feature_degrees = v == Value(kNone) ? kNoFeatures : integer_or_auto(v, kAutoFeatures);
        },
-       Scope::Gsp},
+       Scope::Maps},
       {"relaxations",
        kStage,
        Kind::Integer,
