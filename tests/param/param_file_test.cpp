@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include "cause_of.h"
 #include "mesh/error.h"
 #include "mesh/random.h"
 #include "mesh/shapes.h"
@@ -164,13 +165,33 @@ TEST_CASE("hostile headers take no memory and are refused by name") {
   CHECK(refusal(std::filesystem::temp_directory_path().string()) == Cause::CannotOpen);
 }
 
-TEST_CASE("hostile indices and values are refused by name") {
+TEST_CASE("a file's indices and values that do not fit are refused by name") {
+  const TemporaryFile file;
+  const Parameterization map = sample();
+  write_parameterization(file.path, map);
+  const std::string whole = file.bytes();
+  const auto cause = [&](const auto& from, const auto& to) {
+    static_assert(sizeof from == sizeof to);
+    const auto bytes = [](const auto& value) {
+      return std::string(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    file.write(replaced(whole, bytes(from), bytes(to)));
+    return refusal(file.path);
+  };
+  const Triangle face = map.surface.faces[0];
+  CHECK(cause(face, Triangle{19, face[1], face[2]}) == Cause::IndexOutOfRange);
+  CHECK(cause(face, Triangle{-1, face[1], face[2]}) == Cause::IndexOutOfRange);
+  const Vec3 point = map.surface.positions[1];
+  CHECK(cause(point, Vec3(point.x(), std::nan(""), point.z())) == Cause::NonFinite);
+  CHECK(cause(point, Vec3(point.x(), 1e200, point.z())) == Cause::NonFinite);
+}
+
+TEST_CASE("a map's indices and values that do not fit are refused by name before they are written") {
   const TemporaryFile file;
   const auto cause = [&](auto damage) {
     Parameterization map = sample();
     damage(map);
-    write_parameterization(file.path, map);
-    return refusal(file.path);
+    return cause_of([&] { write_parameterization(file.path, map); });
   };
   CHECK(cause([](auto& m) { m.surface.faces[0][0] = 19; }) == Cause::IndexOutOfRange);
   CHECK(cause([](auto& m) { m.surface.faces[0][0] = -1; }) == Cause::IndexOutOfRange);
@@ -180,8 +201,8 @@ TEST_CASE("hostile indices and values are refused by name") {
   CHECK(cause([](auto& m) { m.base.vertices[2] = 50; }) == Cause::IndexOutOfRange);
   CHECK(cause([](auto& m) { m.base.faces[2][0] = 6; }) == Cause::IndexOutOfRange);
   CHECK(cause([](auto& m) { m.base.faces[2] = {1, 1, 2}; }) == Cause::Malformed);
-  CHECK(cause([](auto& m) { m.base.creases = {{0, 6}}; }) == Cause::IndexOutOfRange);
-  CHECK(cause([](auto& m) { m.base.creases = {{-1, 2}}; }) == Cause::IndexOutOfRange);
+  CHECK(cause([](auto& m) { m.base.creases = {{0, 6}}; }) == Cause::Malformed);
+  CHECK(cause([](auto& m) { m.base.creases = {{-1, 2}}; }) == Cause::Malformed);
   CHECK(cause([](auto& m) { m.base.creases = {{0, 1}}; }) == Cause::Malformed);  // opposite corners
   CHECK(cause([](auto& m) { m.base.creases = {{2, 0}}; }) == Cause::Malformed);
   CHECK(cause([](auto& m) { m.base.creases = {{0, 2}, {0, 2}}; }) == Cause::Malformed);

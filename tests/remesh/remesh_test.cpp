@@ -250,10 +250,13 @@ TEST_CASE("base vertices are the surface's own, isolated vertices do not matter"
     CHECK(remeshed.positions[b] == map.surface.positions[map.base.vertices[b]]);
 }
 
-TEST_CASE("the automatic level is the first with as many faces as the surface") {
+TEST_CASE("the automatic level is the first with as many faces as the surface, and 32,768") {
   Progress silent;
-  for (int map_level = 0; map_level <= 3; ++map_level)
-    CHECK(remesh(exact_maps::quadrisected(shapes::octahedron(), map_level), {}, silent).level == map_level);
+  RemeshOptions sampled;
+  sampled.positions = Positions::Sampled;
+  for (int map_level : {0, 3, 6, 7})
+    CHECK(remesh(exact_maps::quadrisected(shapes::octahedron(), map_level), sampled, silent).level ==
+          std::max(6, map_level));  // 8·4^6 = 32,768
 }
 
 TEST_CASE("folds are bridged, and told") {
