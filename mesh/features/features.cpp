@@ -28,7 +28,7 @@ std::vector<double> dihedral_angles(const Mesh& mesh, const Halfedges& halfedges
   std::vector<Vec3> normal;
   for (const Triangle& t : mesh.faces) {
     const Vec3 &p = mesh.positions[t[0]], &q = mesh.positions[t[1]], &r = mesh.positions[t[2]];
-    normal.push_back((q - p).cross(r - p));
+    normal.push_back((q - p).cross(r - p).normalized());  // unit, so that products stay in range at any size
   }
   std::vector<double> angle(halfedges.twin.size(), 0.0);
   for (std::size_t h = 0; h < angle.size(); ++h) {

@@ -167,3 +167,14 @@ TEST_CASE("features are read from both kinds of files, and hostile ones refused"
   std::ofstream(path) << "0 1\n1 2\n";
   CHECK(read_features(path, grid).size() == 1);
 }
+
+TEST_CASE("a surface of any size has the same features") {
+  const Mesh box = shapes::box(3);
+  const FeatureEdges edges = detect_features(box);
+  REQUIRE(edges.size() == 12 * 8);
+  for (const int exponent : {-190, 240}) {
+    Mesh scaled = box;
+    for (Vec3& p : scaled.positions) p = p.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
+    CHECK(detect_features(scaled) == edges);
+  }
+}
