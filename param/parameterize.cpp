@@ -290,6 +290,11 @@ Start make_start(const Mesh& mesh, const ChosenFeatures& chosen, const std::vect
   return start;
 }
 
+/// Exact. Maps are made at one size, since solvers have thresholds of their own: a surface has the same map at any.
+void scale_by_power_of_two(Mesh& mesh, int exponent) {
+  for (Vec3& p : mesh.positions) p = p.unaryExpr([&](double x) { return std::ldexp(x, exponent); });
+}
+
 /// The map of one of the baselines, which all start from MAPS'.
 Atlas baseline(Atlas atlas, Method method, const ParameterizeOptions& options, ParameterizeResult& result,
                Progress& progress) {
@@ -340,12 +345,15 @@ std::vector<ParameterizeResult> parameterize_all(const Mesh& mesh, const std::ve
   if (shortening.any()) progress.note("the surface is long and thin, and so are its patches");
   Mesh image = mesh;
   if (shortening.any()) shortening.press(image);
+  const int size = std::ilogb(bounding_box_diagonal(image));
+  scale_by_power_of_two(image, -size);
   const ChosenFeatures features = choose_features(mesh, options);
   note_features(features, progress);
   const Start start = make_start(image, features, methods, options, progress);
   std::vector<ParameterizeResult> results;
   for (Method method : methods) {
     ParameterizeResult& result = results.emplace_back(finish(mesh, start, method, options, progress));
+    scale_by_power_of_two(result.map.surface, size);
     if (!shortening.any()) continue;
     std::vector<Vec3>& positions = result.map.surface.positions;
     shortening.draw_out(result.map.surface);

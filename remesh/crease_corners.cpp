@@ -3,7 +3,9 @@
 namespace gsp {
 
 std::vector<int> crease_corners(const SubdivisionLevel& finest, int base_vertices, const std::vector<Vec3>& positions) {
-  constexpr double kStraight = 0.8660254037844386;  // cosine
+  // Cosine of 34.5°, between the turns of regular polygons of 10 and 11 corners: at a turn that shapes have, such as
+  // 30°, rounding would decide.
+  constexpr double kStraight = 0.8241261886220157;
   const std::vector<VertexFan> fans = vertex_fans(finest);
   std::vector<int> corners;
   for (int v = 0; v < base_vertices; ++v) {
