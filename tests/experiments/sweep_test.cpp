@@ -40,7 +40,7 @@ class Study {
 
   std::string recipe_file(const std::string& rest, const std::string& models = "*.ply") const {
     std::ofstream(file("study.toml")) << "models = [\"" << file(models) << "\"]\nbudgets = [128, 256, 512]\n"
-                                      << "samples = 2000\nbase_vertices = 12\n"
+                                      << "samples = 2000\nbase_vertices = 12\nlevel = 3\n"
                                       << rest;
     return file("study.toml");
   }
