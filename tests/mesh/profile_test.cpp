@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <cmath>
 #include <thread>
 #include <vector>
 
@@ -75,8 +76,9 @@ TEST_CASE("a step's peak is that of the memory in use while it ran") {
   CHECK(before > 0.0);
   CHECK(large >= before + 0.9e-6 * kBytes);
   CHECK(inner >= before + 0.9e-6 * kBytes);
-  CHECK(steps[0].peak_megabytes == large);
-  CHECK(steps[4].peak_megabytes <= large);
+  constexpr double kOwn = 1.0;  // megabytes that the runtime takes between steps, a sanitizer's above all
+  CHECK(std::abs(steps[0].peak_megabytes - large) < kOwn);
+  CHECK(steps[4].peak_megabytes < large + kOwn);
 }
 
 TEST_CASE("a progress times its steps where it has a profile, and so does one within it") {

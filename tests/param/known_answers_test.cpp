@@ -94,7 +94,8 @@ TEST_CASE("a surface that is moved, turned or scaled gets the same map") {
   }
 }
 
-TEST_CASE("mirrored, renumbered and refined surfaces get maps as good, the first two over the same removals") {
+TEST_CASE("mirrored, renumbered and refined surfaces get maps as good, the first two over the same removals",
+          "[slow]") {
   const Mesh mesh = uneven();
   Mesh mirrored = changed(mesh, [](const Vec3& p) { return Vec3(-p.x(), p.y(), p.z()); });
   for (Triangle& t : mirrored.faces) std::swap(t[1], t[2]);

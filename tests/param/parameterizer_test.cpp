@@ -228,7 +228,7 @@ TEST_CASE(
   CHECK_FALSE(energy.upright(near));
 }
 
-TEST_CASE("a surface of slivers without area ends in a valid map, on more base vertices if need be") {
+TEST_CASE("a surface of slivers without area ends in a valid map, on more base vertices if need be", "[slow]") {
   Mesh mesh = shapes::sphere(3);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
     if (v % 3 != 0) mesh.positions[v] = Vec3(0.0, 0.0, double(v % 2));
