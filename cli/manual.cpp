@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "experiments/output/quoting.h"
+
 namespace gsp::cli {
 
 namespace {
@@ -112,18 +114,6 @@ std::string command_page(const Page& command) {
   return man_page("gsp-" + command.name, command, synopsis, ".SH SEE ALSO\n\\fBgsp\\fR(1)\n");
 }
 
-/// In single quotes, for any shell.
-std::string single_quoted(const std::string& text) {
-  std::string result = "'";
-  for (char c : text) {
-    if (c == '\'')
-      result += "'\\''";
-    else
-      result += c;
-  }
-  return result + "'";
-}
-
 std::string names_of(const Page& page) {
   std::vector<std::string> names;
   for (const Entry& entry : page.entries)
@@ -136,11 +126,11 @@ std::string bash_completion(const Page& program, const std::vector<Page>& comman
   std::string names, options, words;
   for (const Page& command : commands) {
     names += " " + command.name;
-    options += fmt::format("    {}) options={} ;;\n", command.name, single_quoted(names_of(command)));
+    options += fmt::format("    {}) options={} ;;\n", command.name, shell_word(names_of(command)));
     for (const Entry& entry : command.entries)
       if (!entry.words.empty())
         words += fmt::format("    {}:{}) words={} ;;\n", command.name, entry.names.back(),
-                             single_quoted(fmt::format("{}", fmt::join(entry.words, " "))));
+                             shell_word(fmt::format("{}", fmt::join(entry.words, " "))));
   }
   return fmt::format(
       "# bash completion of gsp, written by gsp itself\n"
@@ -163,7 +153,7 @@ std::string bash_completion(const Page& program, const std::vector<Page>& comman
       "  esac\n"
       "}}\n"
       "complete -o filenames -F _gsp gsp\n",
-      single_quoted(names.substr(1) + " " + names_of(program)), words, options);
+      shell_word(names.substr(1) + " " + names_of(program)), words, options);
 }
 
 /// One option as zsh's _arguments has it.
@@ -175,13 +165,13 @@ std::string zsh_argument(const Entry& entry, const std::string& name) {
     argument += fmt::format(":word:({})", fmt::join(entry.words, " "));
   else if (!entry.value.empty())
     argument += ":value:_files";
-  return single_quoted(argument);
+  return shell_word(argument);
 }
 
 std::string zsh_completion(const std::vector<Page>& commands) {
   std::string list, cases;
   for (const Page& command : commands) {
-    list += "    " + single_quoted(command.name + ":" + command.text) + "\n";
+    list += "    " + shell_word(command.name + ":" + command.text) + "\n";
     cases += "    " + command.name + ") _arguments";
     for (const Entry& entry : command.entries)
       for (const std::string& name : entry.names) cases += " \\\n      " + zsh_argument(entry, name);

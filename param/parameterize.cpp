@@ -240,7 +240,6 @@ void set_map(Begun<Atlas>& begun, const Levels& levels, const ParameterizeOption
     return SmoothedMap{maps->coarsened().atlas, {}};
   };
   const std::optional<SmoothedMap> maps = join_levels(levels, options, make, progress);
-  begun.map.reset();
   if (!maps) return;
   begun.map = maps->atlas;
   if (!settle_creases(*begun.map, progress)) begun.map.reset();

@@ -29,10 +29,7 @@ constexpr int kFewestFaces = 1 << 15;
 int chosen_level(const Parameterization& map, const RemeshOptions& options) {
   int level = options.level;
   if (level == RemeshOptions::kAutoLevel) {
-    const long long wanted = std::max<long long>(input_face_count(map), kFewestFaces);
-    level = 0;
-    while (level < kMaxSubdivisionLevel && (static_cast<long long>(map.base.face_count()) << (2 * level)) < wanted)
-      ++level;
+    level = first_level_with(map.base.face_count(), std::max<double>(input_face_count(map), kFewestFaces));
   }
   if (level < 0 || level > kMaxSubdivisionLevel)
     throw Error(Cause::BadOption,

@@ -1,5 +1,6 @@
 #include "remesh/semiregular.h"
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <unordered_map>
@@ -71,6 +72,12 @@ void mark_corners(SubdivisionLevel& level, const std::vector<int>& corners) {
 }
 
 }  // namespace
+
+int first_level_with(int base_faces, double faces) {
+  int level = 0;
+  while (level < kMaxSubdivisionLevel && std::ldexp(base_faces, 2 * level) < faces) ++level;
+  return level;
+}
 
 SubdivisionLevel base_level(int base_vertices, const std::vector<Triangle>& base_faces, const Creases& creases,
                             const std::vector<int>& corners) {

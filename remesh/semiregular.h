@@ -81,6 +81,9 @@ std::vector<VertexFan> vertex_fans(const SubdivisionLevel& level);
 /// Deepest level that any part of gsp makes or reads: 4^10 faces for each base face.
 inline constexpr int kMaxSubdivisionLevel = 10;
 
+/// The first subdivision level of so many base faces that has at least as many faces as wanted, or the deepest one.
+int first_level_with(int base_faces, double faces);
+
 /// The base level. Throws Error: IndexOutOfRange, DegenerateFace, NonManifoldEdge, InconsistentOrientation, each with
 /// the face; Malformed where `creases` are not ascending pairs of edges inside, with the edge, or `corners` not
 /// ascending vertices of two creases and no other sharp edge, with the vertex. O(F).

@@ -13,6 +13,7 @@
 #include "metrics/surface_distance.h"
 #include "param/parameterize.h"
 #include "remesh/remesh.h"
+#include "remesh/semiregular.h"
 
 namespace gsp {
 
@@ -82,11 +83,7 @@ class Judge {
     options_.base_vertices = size;
     const ParameterizeResult map = parameterize(mesh_, options_, silent);
     RemeshOptions remeshing;
-    remeshing.level = 0;
-    const double wanted = kRefinement * mesh_.face_count() / 2.0;
-    while (remeshing.level < kMaxSubdivisionLevel &&
-           std::ldexp(map.map.base.face_count(), 2 * remeshing.level) < wanted)
-      ++remeshing.level;
+    remeshing.level = first_level_with(map.map.base.face_count(), kRefinement * mesh_.face_count() / 2.0);
     EncodeOptions coding;
     coding.wavelet = Wavelet::ButterflyLifted;
     const Bytes stream = encode(remesh(map.map, remeshing, silent), coding, silent);

@@ -1,9 +1,9 @@
 #include "param/atlas/mend_charts.h"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 
+#include "mesh/disjoint_sets.h"
 #include "param/map/lattice_motion.h"
 
 namespace gsp {
@@ -12,9 +12,7 @@ namespace {
 
 class ChartMender {
  public:
-  explicit ChartMender(Atlas& atlas) : atlas_(atlas), surface_(*atlas.surface), group_(atlas.patch.size()) {
-    std::iota(group_.begin(), group_.end(), 0);
-  }
+  explicit ChartMender(Atlas& atlas) : atlas_(atlas), surface_(*atlas.surface), groups_(atlas.patch.size()) {}
   int run();
 
  private:
@@ -34,12 +32,11 @@ class ChartMender {
   bool agrees(int v, const Arrival& seen) const;
 
   void find_groups();
-  int group_of(int v);
   void grow_from(int group);
 
   Atlas& atlas_;
   const Surface& surface_;
-  std::vector<int> group_;  ///< #V another of the group, the vertex itself at its root
+  DisjointSets groups_;  ///< of the vertices
   /// Neighbours that do not agree.
   std::vector<std::array<int, 2>> torn_;
   std::vector<char> right_;    ///< #V, whether it follows a group, or is where one touches another
@@ -107,20 +104,15 @@ bool ChartMender::agrees(int v, const Arrival& seen) const {
   return false;
 }
 
-int ChartMender::group_of(int v) {
-  while (group_[v] != v) v = group_[v] = group_[group_[v]];
-  return v;
-}
-
 void ChartMender::find_groups() {
-  for (int v = 0; v < static_cast<int>(group_.size()); ++v) {
+  for (int v = 0; v < static_cast<int>(atlas_.patch.size()); ++v) {
     if (!tells(v) || !inside_chart(atlas_.position[v])) continue;
     for_each_view(v, [&](const View& view) {
       if (view.other < v || !inside_chart(atlas_.position[view.other])) return;
       const auto seen = walk(v, view);
       if (!seen) return;
       if (agrees(view.other, *seen))
-        group_[group_of(view.other)] = group_of(v);
+        groups_.unite(v, view.other);
       else
         torn_.push_back({v, view.other});
     });
@@ -133,14 +125,14 @@ void ChartMender::grow_from(int group) {
   std::vector<int> rim;
   for (const auto& pair : torn_)
     for (int v : pair)
-      if (group_of(v) == group && !right_[v]) {
+      if (groups_.root(v) == group && !right_[v]) {
         right_[v] = 1;
         rim.push_back(v);
       }
   for (std::size_t i = 0; i < rim.size(); ++i)
     for_each_view(rim[i], [&](const View& view) {
       const int w = view.other;
-      if (right_[w] || settled_[group_of(w)] || !inside_chart(atlas_.position[w])) return;
+      if (right_[w] || settled_[groups_.root(w)] || !inside_chart(atlas_.position[w])) return;
       const auto seen = walk(rim[i], view);
       if (!seen) return;
       if (!agrees(w, *seen)) {
@@ -155,14 +147,14 @@ void ChartMender::grow_from(int group) {
 int ChartMender::run() {
   find_groups();
   if (torn_.empty()) return 0;
-  std::vector<int> size(group_.size(), 0), groups;
-  for (int v = 0; v < static_cast<int>(group_.size()); ++v) ++size[group_of(v)];
+  std::vector<int> size(atlas_.patch.size(), 0), groups;
+  for (int v = 0; v < static_cast<int>(size.size()); ++v) ++size[groups_.root(v)];
   for (const auto& pair : torn_)
-    for (int v : pair) groups.push_back(group_of(v));
+    for (int v : pair) groups.push_back(groups_.root(v));
   std::sort(groups.begin(), groups.end(), [&](int a, int b) { return size[a] != size[b] ? size[a] > size[b] : a < b; });
   groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
-  right_.assign(group_.size(), 0);
-  settled_.assign(group_.size(), 0);
+  right_.assign(size.size(), 0);
+  settled_.assign(size.size(), 0);
   for (int group : groups) grow_from(group);
   return mended_;
 }

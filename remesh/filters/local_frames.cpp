@@ -47,8 +47,6 @@ Frame frame(const Vec3& normal, const Vec3& direction) {
 
 }  // namespace
 
-const EdgeFrames::FaceNormal EdgeFrames::kNoFace = {Vec3::Zero(), 0.0};
-
 EdgeFrames::EdgeFrames(const SubdivisionLevel& level, const std::vector<Vec3>& positions, FrameRule rule)
     : level_(level), positions_(positions), rule_(rule) {
   normals_.reserve(level.faces.size());
@@ -62,16 +60,15 @@ EdgeFrames::EdgeFrames(const SubdivisionLevel& level, const std::vector<Vec3>& p
 
 Frame EdgeFrames::operator()(int e) const {
   const auto [first_face, second_face] = level_.edge_faces[e];
-  const FaceNormal &a = normals_[first_face], &b = second_face >= 0 ? normals_[second_face] : kNoFace;
+  const FaceNormal a = normals_[first_face],
+                   b = second_face >= 0 ? normals_[second_face] : FaceNormal{Vec3::Zero(), 0.0};
+  const bool by_area = rule_ == FrameRule::ByArea;
   const Vec3 first = shortened(a.vector, a.length);
-  Vec3 normal;
-  if (rule_ == FrameRule::ByArea)
-    normal = filled_up(filled_up(shortened(a.vector + b.vector, a.length + b.length), first, kFolded), Vec3::UnitZ(),
-                       kVanishing);
-  else
-    normal = first + shortened(b.vector, b.length);
-  if (rule_ == FrameRule::Steady)
-    normal = filled_up(filled_up(normal, first, kFoldedSteady), Vec3::UnitZ(), kVanishingSteady);
+  Vec3 normal = by_area ? shortened(a.vector + b.vector, a.length + b.length) : first + shortened(b.vector, b.length);
+  if (rule_ != FrameRule::Mean) {
+    normal = filled_up(normal, first, by_area ? kFolded : kFoldedSteady);
+    normal = filled_up(normal, Vec3::UnitZ(), by_area ? kVanishing : kVanishingSteady);
+  }
   return frame(normal, positions_[level_.edges[e][1]] - positions_[level_.edges[e][0]]);
 }
 

@@ -43,7 +43,6 @@ class EdgeFrames {
     double length;  ///< at least that of the vector: more where the face is thin
   };
   std::vector<FaceNormal> normals_;  ///< #F
-  static const FaceNormal kNoFace;   ///< across a boundary
 };
 
 }  // namespace gsp
