@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mesh/halfedges.h"
+
 namespace gsp {
 
 namespace {
