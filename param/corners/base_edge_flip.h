@@ -13,6 +13,8 @@ struct FlipSite {
   int diagonal;                ///< the half-edge from a to b
   std::array<int, 4> corners;  ///< base vertices a, b, c, d
   std::array<int, 2> faces;    ///< of (a, b, c) and of (b, a, d); later of (c, a, d) and of (d, b, c)
+
+  bool operator==(const FlipSite&) const = default;
 };
 
 /// Nothing where the base would not stay a simplicial complex, an interior base vertex would have fewer than three

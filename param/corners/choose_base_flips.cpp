@@ -1,11 +1,14 @@
 #include "param/corners/choose_base_flips.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <list>
 #include <map>
 #include <numeric>
 #include <tuple>
 
+#include "mesh/parallel.h"
 #include "param/atlas/folds.h"
 #include "param/corners/base_edge_flip.h"
 #include "param/energy/distortion_energy.h"
@@ -25,9 +28,10 @@ constexpr int kDescentSteps = 8;         // of the descent at most
 constexpr double kLeastStepGain = 3e-3;  // that ends it
 constexpr double kStepsAhead = 4.0;      // as good as the last, with which the goal must come within reach
 constexpr int kFlipPasses = 3;
+constexpr int kSideBySide = 8;     // attempts; changes no result
 constexpr double kLongEdge = 1.7;  // in base edges: two heights of a patch, across which an edge could pass unseen
 
-/// What a flip and the smoothing after it change.
+/// The state of all that a flip and the smoothing after it change, before or after.
 class Snapshot {
  public:
   Snapshot(const Atlas& atlas, const FlipSite& site, std::vector<int> vertices, const std::vector<int>& edges)
@@ -62,7 +66,7 @@ class Snapshot {
   }
 
  private:
-  const FlipSite site_;
+  FlipSite site_;
   std::vector<int> vertices_, edges_;
   std::vector<BaseFan> fans_;
   std::vector<std::pair<int, Complex>> places_;
@@ -71,6 +75,17 @@ class Snapshot {
   std::vector<int> twins_;
 };
 
+/// A flip that has been tried out, and all that it may have looked at.
+struct Attempt {
+  FlipSite site;
+  std::vector<int> patches;         ///< at the site's corners
+  std::vector<int> inside;          ///< the vertices in them that are no corners
+  std::vector<int> edges;           ///< at those and at the corners, and the long ones
+  std::optional<Snapshot> flipped;  ///< what it leads to; nothing where it is not worthwhile
+};
+
+/// Attempts are made side by side, each on one of several equal copies of the atlas, and accepted in order. One that
+/// rests on what an earlier one has changed is made again, so the result is that of one attempt after the other.
 class Flipper {
  public:
   explicit Flipper(Atlas& atlas) : atlas_(atlas), members_(atlas.base.face_count()), changed_(members_.size(), 0) {
@@ -81,26 +96,14 @@ class Flipper {
       if (atlas.patch[v] >= 0 && atlas.corner[v] < 0) members_[atlas.patch[v]].push_back(v);
     for (int e = 0; e < atlas.surface->edge_count(); ++e)
       if (is_long(e)) long_edges_.push_back(e);
+    copies_.assign(thread_count() - 1, atlas);
+    vertex_changed_.assign(atlas.patch.size(), 0);
+    patch_changed_.assign(members_.size(), 0);
   }
 
   /// One attempt for every candidate around which something has changed since the last one. Returns how many were
   /// flipped.
-  int pass() {
-    int flipped = 0;
-    for (const Candidate& c : candidates()) {
-      const int h = find_base_edge(atlas_.base, atlas_.fans, c.a, c.b);
-      const auto site = h < 0 ? std::nullopt : flip_site(atlas_, h);
-      if (!site) continue;
-      const std::vector<int> patches = faces_around(atlas_, *site);
-      int& last = attempted_[std::minmax(c.a, c.b)];
-      if (std::none_of(patches.begin(), patches.end(), [&](int p) { return changed_[p] >= last; })) continue;
-      last = ++time_;
-      if (!attempt(*site, patches)) continue;
-      for (int p : patches) changed_[p] = time_;
-      ++flipped;
-    }
-    return flipped;
-  }
+  int pass();
 
  private:
   struct Candidate {
@@ -109,20 +112,121 @@ class Flipper {
   };
 
   bool is_long(int edge) const;
-  bool is_beside(int patch, const FlipSite& site) const;
   std::vector<Candidate> candidates() const;
-  bool attempt(const FlipSite& site, const std::vector<int>& patches);
-  bool lower_to(double goal, const std::vector<int>& vertices, const std::vector<int>& faces);
-  DistortionEnergy energy_of(const std::vector<int>& vertices, const std::vector<int>& faces) const;
+  std::optional<FlipSite> due(const Candidate& c) const;
+  /// Per site, from the present state.
+  std::vector<Attempt> attempt_all(const std::vector<FlipSite>& sites);
+  /// The atlas is as it was afterwards.
+  Attempt attempt(Atlas& atlas, const FlipSite& site) const;
+  bool lower_to(Atlas& atlas, double goal, const std::vector<int>& vertices, const std::vector<int>& faces) const;
+  DistortionEnergy energy_of(const Atlas& atlas, const std::vector<int>& vertices, const std::vector<int>& faces) const;
+  bool is_stale(const Attempt& made) const;
+  void accept(const Attempt& made);
 
   Atlas& atlas_;
+  std::list<Atlas> copies_;
   std::vector<ReferenceShape> shapes_;     ///< per face
   std::vector<std::vector<int>> members_;  ///< per patch, its vertices that are no corners
   std::vector<int> long_edges_;
-  int time_ = 0;                                  ///< counts the attempts
-  std::vector<int> changed_;                      ///< per patch, the last attempt that changed it
-  std::map<std::pair<int, int>, int> attempted_;  ///< per edge, the last attempt
+  int time_ = 0;                                     ///< counts the attempts
+  std::vector<int> changed_;                         ///< per patch, the last attempt that changed it
+  std::map<std::pair<int, int>, int> attempted_;     ///< per edge, the last attempt
+  int round_ = 0;                                    ///< counts the attempts side by side
+  bool all_changed_ = false;                         ///< in this round
+  std::vector<int> vertex_changed_, patch_changed_;  ///< the last round that did, beside the vertex too
 };
+
+/// Nothing where the edge is gone, cannot be flipped, or nothing around it has changed since the last attempt.
+std::optional<FlipSite> Flipper::due(const Candidate& c) const {
+  const int h = find_base_edge(atlas_.base, atlas_.fans, c.a, c.b);
+  auto site = h < 0 ? std::nullopt : flip_site(atlas_, h);
+  if (!site) return std::nullopt;
+  const auto last = attempted_.find(std::minmax(c.a, c.b));
+  if (last == attempted_.end()) return site;
+  const std::vector<int> patches = faces_around(atlas_, *site);
+  if (std::none_of(patches.begin(), patches.end(), [&](int p) { return changed_[p] >= last->second; }))
+    return std::nullopt;
+  return site;
+}
+
+int Flipper::pass() {
+  const std::vector<Candidate> all = candidates();
+  int flipped = 0;
+  for (auto next = all.begin(); next != all.end();) {
+    ++round_;
+    all_changed_ = false;
+    const auto first = next;
+    std::vector<FlipSite> sites;
+    for (; next != all.end() && sites.size() < kSideBySide; ++next)
+      if (const auto site = due(*next)) sites.push_back(*site);
+    const std::vector<Attempt> made = attempt_all(sites);
+    for (auto c = first; c != next; ++c) {
+      const auto site = due(*c);
+      if (!site) continue;
+      attempted_[std::minmax(c->a, c->b)] = ++time_;
+      const auto known =
+          std::find_if(made.begin(), made.end(), [&](const Attempt& m) { return m.site == *site && !is_stale(m); });
+      std::optional<Attempt> anew;
+      if (known == made.end()) anew = attempt(atlas_, *site);
+      const Attempt& valid = anew ? *anew : *known;
+      if (!valid.flipped) continue;
+      accept(valid);
+      ++flipped;
+    }
+  }
+  return flipped;
+}
+
+std::vector<Attempt> Flipper::attempt_all(const std::vector<FlipSite>& sites) {
+  std::vector<Attempt> made(sites.size());
+  std::vector<Atlas*> atlases{&atlas_};
+  for (Atlas& copy : copies_) atlases.push_back(&copy);
+  std::atomic<std::size_t> next = 0;
+  parallel_for(atlases.size(), 1, [&](std::size_t i, std::size_t) {
+    for (std::size_t s = next++; s < sites.size(); s = next++) made[s] = attempt(*atlases[i], sites[s]);
+  });
+  return made;
+}
+
+/// Whether it may rest on what has been accepted in this round.
+bool Flipper::is_stale(const Attempt& made) const {
+  const auto changed = [&](int v) { return vertex_changed_[v] == round_; };
+  const auto& surface = *atlas_.surface;
+  return all_changed_ ||
+         std::any_of(made.patches.begin(), made.patches.end(), [&](int p) { return patch_changed_[p] == round_; }) ||
+         std::any_of(made.edges.begin(), made.edges.end(), [&](int e) {
+           const int h = surface.edge_halfedge[e];
+           return changed(surface.halfedges.from(h)) || changed(surface.halfedges.to(h));
+         });
+}
+
+void Flipper::accept(const Attempt& made) {
+  made.flipped->restore(atlas_);
+  for (Atlas& copy : copies_) made.flipped->restore(copy);
+  for (int p : made.patches) {
+    members_[p].clear();
+    changed_[p] = time_;
+    patch_changed_[p] = round_;
+  }
+  const auto mark = [&](int v) {
+    vertex_changed_[v] = round_;
+    atlas_.surface->for_each_neighbour(v, [&](int w, int, bool) { vertex_changed_[w] = round_; });
+  };
+  for (int v : made.inside) {
+    members_[atlas_.patch[v]].push_back(v);
+    patch_changed_[atlas_.patch[v]] = round_;
+    mark(v);
+  }
+  for (int corner : made.site.corners) mark(atlas_.base.vertices[corner]);
+  const std::size_t before = long_edges_.size();
+  for (int e : made.edges)
+    if (is_long(e)) long_edges_.push_back(e);
+  std::sort(long_edges_.begin(), long_edges_.end());
+  long_edges_.erase(std::unique(long_edges_.begin(), long_edges_.end()), long_edges_.end());
+  // Each attempt looks at all of them.
+  const auto ways = changed_ways(atlas_, made.site, long_edges_);
+  if (long_edges_.size() > before || !ways || !ways->empty()) all_changed_ = true;
+}
 
 bool Flipper::is_long(int edge) const {
   const int h = atlas_.surface->edge_halfedge[edge];
@@ -173,17 +277,19 @@ std::vector<Flipper::Candidate> Flipper::candidates() const {
 }
 
 /// `faces`: those around the vertices.
-DistortionEnergy Flipper::energy_of(const std::vector<int>& vertices, const std::vector<int>& faces) const {
+DistortionEnergy Flipper::energy_of(const Atlas& atlas, const std::vector<int>& vertices,
+                                    const std::vector<int>& faces) const {
   std::vector<ReferenceShape> shapes;
   for (int f : faces) shapes.push_back(shapes_[f]);
-  return {atlas_, vertices, faces, shapes, kMapAreaWeight};
+  return {atlas, vertices, faces, shapes, kMapAreaWeight};
 }
 
 /// Smooths around the site until its energy is below the goal and gains little more. False where it does not come there
 /// free of folds, or a vertex loses its chart.
-bool Flipper::lower_to(double goal, const std::vector<int>& vertices, const std::vector<int>& faces) {
-  const DistortionEnergy around = energy_of(vertices, faces);
-  std::vector<double> x = around.positions(atlas_);
+bool Flipper::lower_to(Atlas& atlas, double goal, const std::vector<int>& vertices,
+                       const std::vector<int>& faces) const {
+  const DistortionEnergy around = energy_of(atlas, vertices, faces);
+  std::vector<double> x = around.positions(atlas);
   if (!around.upright(x) && !drive_apart(around, x, kApartSteps)) return false;
   lower_peaks(around, x);
   NewtonDescent descent(around, x);
@@ -192,63 +298,56 @@ bool Flipper::lower_to(double goal, const std::vector<int>& vertices, const std:
     if (gain < kLeastStepGain || descent.value() * (1.0 - kStepsAhead * gain) > goal) break;
   }
   if (descent.value() > goal) return false;
-  around.write_back(x, atlas_);
+  around.write_back(x, atlas);
   // Faces that have been driven apart may still go round a vertex once too often.
-  const std::vector<int> touched = vertices_of(atlas_.surface->mesh.faces, faces);
-  const auto injective = [&](int v) { return local_map(atlas_, v) == LocalMap::Injective; };
+  const std::vector<int> touched = vertices_of(atlas.surface->mesh.faces, faces);
+  const auto injective = [&](int v) { return local_map(atlas, v) == LocalMap::Injective; };
   return std::all_of(touched.begin(), touched.end(), injective) &&
-         std::all_of(vertices.begin(), vertices.end(), [&](int v) { return atlas_.reassign(v); });
+         std::all_of(vertices.begin(), vertices.end(), [&](int v) { return atlas.reassign(v); });
 }
 
 /// Whether a patch is one of the site's or shares an edge with them.
-bool Flipper::is_beside(int patch, const FlipSite& site) const {
-  const Triangle& t = atlas_.base.faces[patch];
+bool is_beside(const Triangle& t, const FlipSite& site) {
   return std::count_if(t.begin(), t.end(), [&](int b) {
            return std::find(site.corners.begin(), site.corners.end(), b) != site.corners.end();
          }) >= 2;
 }
 
-bool Flipper::attempt(const FlipSite& site, const std::vector<int>& patches) {
-  std::vector<int> inside, edges = long_edges_, free;
-  for (int p : patches) inside.insert(inside.end(), members_[p].begin(), members_[p].end());
+Attempt Flipper::attempt(Atlas& atlas, const FlipSite& site) const {
+  Attempt made{site, faces_around(atlas, site), {}, long_edges_, std::nullopt};
+  for (int p : made.patches) made.inside.insert(made.inside.end(), members_[p].begin(), members_[p].end());
   const auto add_edges = [&](int v) {
-    atlas_.surface->for_each_neighbour(v, [&](int, int edge, bool) { edges.push_back(edge); });
+    atlas.surface->for_each_neighbour(v, [&](int, int edge, bool) { made.edges.push_back(edge); });
   };
-  for (int v : inside) add_edges(v);
-  for (int corner : site.corners) add_edges(atlas_.base.vertices[corner]);
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  const auto ways = changed_ways(atlas_, site, edges);
-  if (!ways) return false;
-  for (int p : patches)
-    if (is_beside(p, site))
+  for (int v : made.inside) add_edges(v);
+  for (int corner : site.corners) add_edges(atlas.base.vertices[corner]);
+  std::sort(made.edges.begin(), made.edges.end());
+  made.edges.erase(std::unique(made.edges.begin(), made.edges.end()), made.edges.end());
+  const auto ways = changed_ways(atlas, site, made.edges);
+  if (!ways) return made;
+  std::vector<int> free;
+  for (int p : made.patches)
+    if (is_beside(atlas.base.faces[p], site))
       std::copy_if(members_[p].begin(), members_[p].end(), std::back_inserter(free),
-                   [&](int v) { return atlas_.is_free(v); });
-  if (free.empty()) return false;
+                   [&](int v) { return atlas.is_free(v); });
+  if (free.empty()) return made;
   std::sort(free.begin(), free.end());
 
-  const std::vector<int> faces = faces_around(*atlas_.surface, free);
-  const DistortionEnergy around = energy_of(free, faces);
-  std::vector<double> x = around.positions(atlas_), gradient(x.size());
+  const std::vector<int> faces = faces_around(*atlas.surface, free);
+  const DistortionEnergy around = energy_of(atlas, free, faces);
+  std::vector<double> x = around.positions(atlas), gradient(x.size());
   const double before = around.evaluate(x.data(), gradient.data(), 0.0);
   double isometric = 0.0;
   for (int f = 0; f < around.face_count(); ++f) isometric += kIsometry * around.weight(f);
 
-  const Snapshot snapshot(atlas_, site, inside, edges);
+  const Snapshot unflipped(atlas, site, made.inside, made.edges);
   std::vector<int> moved = members_[site.faces[0]];
   moved.insert(moved.end(), members_[site.faces[1]].begin(), members_[site.faces[1]].end());
   const double goal = isometric + kWorthwhile * (before - isometric);
-  if (!flip(atlas_, site, moved, *ways) || !lower_to(goal, free, faces)) {
-    snapshot.restore(atlas_);
-    return false;
-  }
-  for (int p : patches) members_[p].clear();
-  for (int v : inside) members_[atlas_.patch[v]].push_back(v);
-  for (int e : edges)
-    if (is_long(e)) long_edges_.push_back(e);
-  std::sort(long_edges_.begin(), long_edges_.end());
-  long_edges_.erase(std::unique(long_edges_.begin(), long_edges_.end()), long_edges_.end());
-  return true;
+  if (flip(atlas, site, moved, *ways) && lower_to(atlas, goal, free, faces))
+    made.flipped.emplace(atlas, site, made.inside, made.edges);
+  unflipped.restore(atlas);
+  return made;
 }
 
 }  // namespace
