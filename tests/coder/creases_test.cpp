@@ -225,7 +225,8 @@ TEST_CASE("streams of meshes with creases hold these and the mesh, to every pref
       INFO(wavelet_name(wavelet));
       EncodeOptions options;
       options.wavelet = wavelet;
-      options.precision_bits = 22;  // details of random creases turn with their frames, so errors grow from level to level
+      options.precision_bits =
+          22;  // details of random creases turn with their frames, so errors grow from level to level
       const Bytes stream = encode(mesh, options, quiet);
       const SemiregularMesh decoded = decode(stream, stream.size());
       Bytes connectivity;

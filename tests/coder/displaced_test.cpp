@@ -4,6 +4,7 @@
 #include "coder/codec.h"
 #include "coder/coded_order.h"
 #include "coder/displaced/control_points.h"
+#include "coder/displaced/displaced_codec.h"
 #include "coder/displaced/scalar_field.h"
 #include "coder/header.h"
 #include "mesh/error.h"
@@ -293,4 +294,28 @@ TEST_CASE("headers of displaced streams that claim the largest numbers decode to
   header.origin[0] = (std::int64_t{1} << 41) + 1;
   const Bytes stream = write_header(header, connectivity);
   CHECK(cause_of([&] { decode(stream, stream.size()); }) == Cause::BadStream);
+}
+
+TEST_CASE("control points are exact, and no displacement at all is the smooth surface of them") {
+  Progress silent;
+  for (const Mesh& base : bases()) {
+    SemiregularMesh mesh = samples::displaced(base, 2);
+    mesh.positions = smooth_surface(mesh.levels(), mesh.control->points).points;
+    StreamParts parts;
+    const Bytes stream = encode_displaced(mesh, Wavelet::Butterfly, 2.0, 12 * kPassesPerPlane, silent, &parts);
+    const StreamHeader header = read_header(stream.data(), stream.data() + stream.size());
+    CHECK(header.kind == StreamKind::Displaced);
+    CHECK(header.step_exponent <= 1 - 12);
+    CHECK(header.control_grid == mesh.control->grid);
+    const std::size_t payload = header_bytes(stream);
+    CHECK(stream.size() - payload < 40u);
+    CHECK(parts.header_bytes + parts.connectivity_bytes + static_cast<std::size_t>(parts.bits.base) / 8 == payload);
+    Bytes unused;
+    const std::vector<int> order = coded_vertex_order(mesh, encode_connectivity(mesh.base_faces, unused));
+    const SemiregularMesh decoded =
+        decode_displaced(header, 2, importance_level(header), stream.data() + payload, stream.data() + stream.size());
+    for (int v = 0; v < mesh.base_vertices; ++v) CHECK(decoded.control->points[v] == mesh.control->points[order[v]]);
+    for (std::size_t v = 0; v < order.size(); ++v)
+      CHECK((decoded.positions[v] - mesh.positions[order[v]]).norm() < 1e-3);
+  }
 }
