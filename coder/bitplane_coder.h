@@ -81,8 +81,8 @@ BitplaneState encode_bitplanes_until(const EdgeForest& forest, const BitplaneLay
                                      const BitplaneCoefficients& coefficients, std::size_t bytes);
 
 /// What the bytes [begin, end) determine, up to the first that speaks of a level below the forest. Of the node in whose
-/// decision they end the plane counts as known and 0, which is part of the format. Any bytes are safe. Throws Error(BadStream) where a check in the stream shows damage
-/// (coder/payload_check.h).
+/// decision they end the plane counts as known and 0, which is part of the format. Any bytes are safe. Throws
+/// Error(BadStream) where a check in the stream shows damage (coder/payload_check.h).
 BitplaneCoefficients decode_bitplanes(const EdgeForest& forest, const BitplaneLayout& layout, const std::uint8_t* begin,
                                       const std::uint8_t* end);
 

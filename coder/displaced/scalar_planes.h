@@ -15,8 +15,8 @@ using ScalarIntegers = BitplaneCoefficients::Component;
 BitplaneParts encode_scalars(const ScalarForest& forest, int planes, const ScalarIntegers& integers, Bytes& out);
 
 /// What the bytes [begin, end) determine, up to the first that speaks of a level below the forest, as
-/// `decode_bitplanes` has it; `stream_levels`: those of the forest that was coded. Any bytes are safe. Throws Error(BadStream) where a check in the stream shows
-/// damage (coder/payload_check.h).
+/// `decode_bitplanes` has it; `stream_levels`: those of the forest that was coded. Any bytes are safe. Throws
+/// Error(BadStream) where a check in the stream shows damage (coder/payload_check.h).
 ScalarIntegers decode_scalars(const ScalarForest& forest, int stream_levels, int planes, const std::uint8_t* begin,
                               const std::uint8_t* end);
 

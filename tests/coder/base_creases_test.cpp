@@ -70,7 +70,9 @@ TEST_CASE("a straight closed curve is asked for as a curve that goes straight on
   CountingSide side;
   CHECK(told(level, side) == level.creased);
   CHECK(static_cast<int>(side.said.size()) == level.edge_count());
-  // One of its six edges starts it. The others follow, each the first that is asked for at its vertex.
+  // One of its six edges starts it, the first of all. The others follow, each the first of the five that are asked for
+  // at its vertex.
+  for (int k = 0; k <= 20; ++k) CHECK(side.said[k] == (k == 0 || k % 5 == 1));
   int curves = 0, straight = 0;
   for (const auto& [context, count] : side.decisions) {
     if (count.second == 1) ++curves;

@@ -123,6 +123,7 @@ TEST_CASE("precision follows the height of the finest vertices over their edges 
   CHECK(sufficient_precision(square, raised_square(1.001 * height / 256 / quarter), 1.5) == 4 * 17 + 1);
   CHECK(sufficient_precision(square, raised_square(-1.001 * height / 256 / (quarter * quarter)), 1.5) == 4 * 17 + 2);
   CHECK(sufficient_precision(square, raised_square(height / 256), 2.5) == 4 * 18);
+  CHECK(sufficient_precision(square, raised_square(0.999 * height / 256), 1.5) == 4 * 17 + 1);
   // From 16 bits to 24, which flat surfaces have.
   CHECK(sufficient_precision(square, raised_square(height), 1.5) == 4 * 16);
   CHECK(sufficient_precision(square, raised_square(height * 1e-9), 1.5) == 4 * 24);
