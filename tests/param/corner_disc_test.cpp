@@ -108,7 +108,7 @@ TEST_CASE("a corner moved to its neighbour lies there, and a second exchange tak
     const Atlas before = atlas;
     CornerDisc disc(atlas, kReach, b);
     REQUIRE(disc.collect());
-    const int next = disc.nearest_to(0.1);  // a vertex on the first sector's side
+    const int next = disc.nearest_to(std::pow(0.125, disc.power()));  // the neighbour on the first sector's side
     REQUIRE(next > 0);
     REQUIRE(disc.draw_to_center(next));
     CHECK(disc.vertices()[next].disc == 0.0);

@@ -92,7 +92,7 @@ TEST_CASE("Newton's method brings a map that was shaken back to the isometry") {
   std::vector<double> x = energy.positions(start);
   NewtonDescent descent(energy, x);
   const double before = descent.value();
-  CHECK(before > 2.05);
+  CHECK(before > 2.02);
   for (int step = 0; step < 12 && descent.step() > 1e-13; ++step) CHECK(energy.upright(x));
   CHECK(descent.value() == Approx(2.0).epsilon(1e-9));
 }
@@ -157,7 +157,7 @@ TEST_CASE("two folds far apart are taken apart on their own") {
   for (int v : around.vertices)
     if (atlas.is_free(v)) second = v;  // the farthest
   for (int v : {first, second}) atlas.position[v] += Complex(-0.3, 0.1);
-  REQUIRE(find_folds(atlas).faces.size() >= 4);
+  for (int v : {first, second}) REQUIRE(local_map(atlas, v) == LocalMap::Folded);
   Progress quiet;
   CHECK(repair_folds(atlas, 8, quiet).none());
 }

@@ -13,11 +13,11 @@ using namespace gsp;
 
 namespace {
 
-using Weights = std::array<double, 3>;
+using CornerWeights = std::array<double, 3>;
 
 Vec3 place_of(const RefinedSurface& refined, int v, int face) {
   const Mesh& mesh = refined.original().mesh;
-  const Weights w = refined.weights_in(v, face);
+  const CornerWeights w = refined.weights_in(v, face);
   return w[0] * mesh.positions[mesh.faces[face][0]] + w[1] * mesh.positions[mesh.faces[face][1]] +
          w[2] * mesh.positions[mesh.faces[face][2]];
 }
@@ -31,10 +31,11 @@ int find(const RefinedSurface& refined, int from, int to) {
 /// Cuts a map's surface at the middle of the edge of h, and leaves the map as it is.
 void split_in_half(RefinedSurface& refined, LooseMap& loose, int h) {
   const int twin = refined.twin(h), b = refined.to(h);
-  const int c = refined.from(Halfedges::prev(h)), d = refined.from(Halfedges::prev(twin));
+  const int c = refined.from(Halfedges::prev(h));
   // Everything in the chart of the half-edge's start, which must be no patch corner.
   const Transition at_b = loose.transition[h], at_c = loose.transition[Halfedges::prev(h)].inverse(),
                    at_d = loose.transition[Halfedges::next(twin)];
+  const Transition b_to_c = loose.transition[Halfedges::next(h)], a_to_d = at_d;
   const int a = refined.from(h);
   const auto into = [&](int v) { return v == a ? Transition{} : v == b ? at_b : v == c ? at_c : at_d; };
   const Complex middle = 0.5 * (loose.position[a] + at_b.apply(loose.position[b]));
@@ -45,9 +46,12 @@ void split_in_half(RefinedSurface& refined, LooseMap& loose, int h) {
   loose.transition.resize(3 * static_cast<std::size_t>(refined.face_slots()));
   for (int f : {h / 3, twin / 3, refined.face_slots() - 2, refined.face_slots() - 1})
     for (int k = 3 * f; k < 3 * f + 3; ++k) {
-      const auto in = [&](int v) { return v == m ? Transition{} : into(v); };
-      loose.transition[k] = in(refined.from(k)).inverse() * in(refined.to(k));
+      if (refined.from(k) == m) loose.transition[k] = into(refined.to(k));
+      if (refined.to(k) == m) loose.transition[k] = into(refined.from(k)).inverse();
     }
+  // The sides that the new faces took over keep what they had.
+  loose.transition[3 * refined.face_slots() - 5] = b_to_c;
+  loose.transition[3 * refined.face_slots() - 2] = a_to_d;
 }
 
 }  // namespace
@@ -69,10 +73,10 @@ TEST_CASE("vertices know where they lie by the faces that hold them") {
   const Triangle t = refined.corners(piece);
   const int inside = refined.insert(piece, {0.5, 0.3, 0.2});
   Vec3 expected = Vec3::Zero();
-  const Weights w = {0.5, 0.3, 0.2};
+  const CornerWeights w = {0.5, 0.3, 0.2};
   for (int k = 0; k < 3; ++k) expected += w[k] * place_of(refined, t[k], 7);
   CHECK((place_of(refined, inside, 7) - expected).norm() < 1e-15);
-  CHECK(refined.weights_in(c, 7) == Weights{0, 0, 1});
+  CHECK(refined.weights_in(c, 7) == CornerWeights{0, 0, 1});
   // Whole again in the compact form: every piece upright in its face.
   const RefinedSurface::Compact compact = refined.compact();
   CHECK(compact.mesh.vertex_count() == mesh.vertex_count() + 3);
@@ -151,6 +155,7 @@ TEST_CASE("a patch that is cut across is drawn together again, and the map is wh
   REQUIRE(cuts > 10);
   EditableAtlas cut = tighten(std::move(map.refined), loose, map.atlas.base, map.atlas.fans);
   CHECK(cut.atlas.surface->mesh.vertex_count() == 162 + cuts);
+  CHECK(cut.atlas.reassign_all() == 0);
   CHECK(check_map(cut.atlas.finish({})).valid());
   const EditableAtlas whole = coarsen(std::move(cut));
   CHECK(whole.atlas.surface->mesh.vertex_count() == 162);

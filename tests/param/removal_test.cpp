@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <memory>
@@ -47,6 +48,15 @@ template <class Visit>
 int take_out(VertexMap& map, const std::vector<char>& may, Visit visit) {
   Random random(40);
   const std::vector<Vec3>& positions = map.surface().mesh.positions;
+  // A star that has a very wide wedge is not flattened as it is (flatten.h).
+  const auto narrow = [&](const Star& star) {
+    for (std::size_t k = 0; k < star.triangles.size(); ++k) {
+      const Vec3 a = positions[star.ring[k]] - positions[star.center],
+                 b = positions[star.ring[(k + 1) % star.ring.size()]] - positions[star.center];
+      if (a.dot(b) < -0.9 * a.norm() * b.norm()) return false;
+    }
+    return true;
+  };
   std::vector<int> order;
   for (int v = 0; v < static_cast<int>(positions.size()); ++v)
     if (may[v]) order.push_back(v);
@@ -56,7 +66,7 @@ int take_out(VertexMap& map, const std::vector<char>& may, Visit visit) {
   for (int v : order) {
     map.complex().gather(v, star);
     const std::vector<RingTriangle> fan = flat_fan(star, positions);
-    if (fan.empty() || star.size() > 10) continue;
+    if (fan.empty() || star.size() > 10 || !narrow(star)) continue;
     visit(star, fan);
     map.remove({v, fan});
     ++taken;

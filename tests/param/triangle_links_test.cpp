@@ -1,5 +1,6 @@
 #include "param/atlas/triangle_links.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -159,39 +160,35 @@ TEST_CASE("any vertex inside can be drawn onto any neighbour that shares no othe
     CHECK(alive_faces(links) == mesh.face_count() - 2);
   }
   CHECK(apart > 20);
-  // Of a tetrahedron with a vertex m in one face, the ends of an edge of that face share the fourth corner and m, but m
-  // and the third corner are both neighbours of all.
+  // Of a tetrahedron with a vertex m in one face, the ends of that face's sides share the third corner besides m and
+  // the fourth; all others share the corners of their two faces alone.
   TriangleLinks capped = links_of(shapes::tetrahedron());
-  const int m = middle_of(capped);
-  capped.insert(0, m);
-  for (int h = 0; h < static_cast<int>(capped.twin.size()); ++h) {
-    const bool at_m = capped.from(h) == m || capped.to(h) == m;
-    CHECK(capped.ends_apart(h, false) == at_m);
-  }
+  const Triangle face = capped.faces[0];
+  capped.insert(0, middle_of(capped));
+  const auto of_face = [&](int v) { return std::count(face.begin(), face.end(), v) > 0; };
+  for (int h = 0; h < static_cast<int>(capped.twin.size()); ++h)
+    CHECK(capped.ends_apart(h, false) == !(of_face(capped.from(h)) && of_face(capped.to(h))));
 }
 
-TEST_CASE("the middle of a flat hexagon can be drawn anywhere, that of a bent one where no face folds") {
-  const Mesh mesh = hexagon();
-  const TriangleLinks links = links_of(mesh);
-  std::vector<Complex> at = flat(mesh);
-  const auto link = in_plane(links, at);
-  std::vector<int> ends;
-  const int along = links.collapsible(0, at[0], link, [&](int h) {
-    ends.push_back(links.to(h));
-    return false;
-  });
-  CHECK(along == -1);
-  CHECK(ends.size() == 6);
-  CHECK(links.collapsible(0, at[0], link, [](int) { return true; }) >= 0);
-  // A notch at vertex 1, hardly in front of the middle: from nowhere else are all sides seen.
-  at[1] = 0.05 * at[1];
-  ends.clear();
-  links.collapsible(0, at[0], link, [&](int h) {
-    ends.push_back(links.to(h));
-    return false;
-  });
-  CHECK(ends == std::vector<int>{1});
-  // A second notch opposite leaves no place but the middle.
-  at[4] = 0.05 * at[4];
-  CHECK(links.collapsible(0, at[0], link, [](int) { return true; }) == -1);
+TEST_CASE("a vertex can be drawn onto the neighbours that see the whole ring") {
+  const auto ends_of = [](const TriangleLinks& links, const std::vector<Complex>& at) {
+    std::set<int> ends;
+    const int along = links.collapsible(0, at[0], in_plane(links, at), [&](int h) {
+      ends.insert(links.to(h));
+      return false;
+    });
+    CHECK(along == -1);
+    return ends;
+  };
+  const Mesh hexagonal = hexagon();
+  const TriangleLinks six = links_of(hexagonal);
+  const std::vector<Complex> regular = flat(hexagonal);
+  CHECK(ends_of(six, regular) == std::set<int>{1, 2, 3, 4, 5, 6});
+  const int along = six.collapsible(0, regular[0], in_plane(six, regular), [](int) { return true; });
+  REQUIRE(along >= 0);
+  CHECK(six.from(along) == 0);
+  // An arrowhead with its tip at vertex 1, its barbs at 2 and 4, the notch between them at 3: a barb sees the other one
+  // behind the notch.
+  const TriangleLinks four = links_of(shapes::sector_disc(4, 0));
+  CHECK(ends_of(four, {{0, 0}, {2, 0}, {-1, 1}, {-0.3, 0}, {-1, -1}}) == std::set<int>{1, 3});
 }
