@@ -10,6 +10,7 @@
 #include "mesh/shapes.h"
 #include "param/atlas/folds.h"
 #include "param/baselines/relax_patch_pairs.h"
+#include "param/corners/corner_move.h"
 #include "param/creases/cut_surface.h"
 #include "param/creases/glue_map.h"
 #include "param/creases/settle_creases.h"
@@ -225,6 +226,29 @@ TEST_CASE("the paper's map of a lattice torus onto a lattice base is the flat on
   const SmoothedMap relaxed = linear_map(start, options, quiet);
   CHECK(off(relaxed.atlas, exact) < 1e-9);
   CHECK(relaxed.atlas.base.vertices == exact.base.vertices);
+}
+
+TEST_CASE("a corner beside its place is relaxed back to it") {
+  const Atlas exact = atlas_of(exact_maps::quadrisected(shapes::lattice_torus(3, 3), 3));
+  Atlas start = exact;
+  CornerDisc disc(start, 0.45, 4);
+  REQUIRE(disc.collect());
+  const int beside = disc.nearest_to(0.125);
+  REQUIRE(disc.draw_to_center(beside));
+  CornerMove move;
+  move.base_vertex = 4;
+  REQUIRE(make_move(disc, beside, move));
+  exchange(start, move);
+  REQUIRE(start.base.vertices != exact.base.vertices);
+  ParameterizeOptions options = paper_options();
+  options.weights = Weights::Uniform;
+  Progress quiet;
+  options.relaxations = 0;
+  CHECK(off(linear_map(start, options, quiet).atlas, exact) > 1e-3);
+  options.relaxations = 4;
+  const SmoothedMap relaxed = linear_map(start, options, quiet);
+  CHECK(relaxed.atlas.base.vertices == exact.base.vertices);
+  CHECK(off(relaxed.atlas, exact) < 1e-9);
 }
 
 TEST_CASE("options are named and read back, and other words refused") {
