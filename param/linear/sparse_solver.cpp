@@ -61,8 +61,8 @@ thread_local int alone_here = 0;
 /// While one lives, solvers use this thread alone. A threaded BLAS sums in an order that depends on the number of
 /// threads; results must not. CHOLMOD's own threads make loops that are too short for them, and take a fifth of its
 /// time. OpenBLAS has one number of threads for the process: the first that begins sets it and the last that ends puts
-/// back what was there. OpenMP's setting is the calling thread's own. Throws std::bad_alloc where the BLAS would have
-/// no room.
+/// back what was there. OpenMP's setting is the calling thread's own. It is made after the solver: the program loads the
+/// libraries with the first one (cli/late_suitesparse.cpp). Throws std::bad_alloc where the BLAS would have no room.
 class OneSolverThread {
  public:
   OneSolverThread() {
@@ -155,8 +155,8 @@ extern "C" [[gnu::visibility("default")]] void GOMP_parallel(void (*body)(void*)
 
 ComplexVector solve_sparse(const ComplexMatrix& a, const ComplexVector& b) {
   if (b.size() == 0) return b;
-  const OneSolverThread alone;
   Solver<ComplexMatrix> solver;
+  const OneSolverThread alone;
   solver.compute(a);
   require_factorized(solver, b);
   const ComplexVector x = solver.solve(b);
@@ -165,8 +165,8 @@ ComplexVector solve_sparse(const ComplexMatrix& a, const ComplexVector& b) {
 
 ComplexVector solve_hermitian(const ComplexMatrix& lower, const ComplexVector& b) {
   if (b.size() == 0) return b;
-  const OneSolverThread alone;
   Cholesky<ComplexMatrix> solver;
+  const OneSolverThread alone;
   keep_quiet(solver);
   solver.compute(lower);
   require_factorized(solver, b);
@@ -175,8 +175,8 @@ ComplexVector solve_hermitian(const ComplexMatrix& lower, const ComplexVector& b
 }
 
 bool solve_sparse(const Eigen::SparseMatrix<double>& a, const Eigen::MatrixX2d& b, Eigen::MatrixX2d& x) {
-  const OneSolverThread alone;
   Solver<Eigen::SparseMatrix<double>> solver;
+  const OneSolverThread alone;
   solver.compute(a);
   if (solver.info() != Eigen::Success) return false;
   x.resize(b.rows(), 2);
