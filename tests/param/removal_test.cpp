@@ -6,6 +6,7 @@
 
 #include "mesh/random.h"
 #include "mesh/shapes.h"
+#include "param/atlas/surface.h"
 #include "param/removal/neighbour_lists.h"
 #include "param/removal/removal_record.h"
 #include "param/removal/vertex_map.h"
@@ -75,6 +76,55 @@ int take_out(VertexMap& map, const std::vector<char>& may, Visit visit) {
 }
 
 }  // namespace
+
+TEST_CASE("a surface knows its edges by their first half-edge, its fans, and the area around each vertex") {
+  const Mesh mesh = shapes::grid(3, 3);
+  const Surface surface(mesh);
+  CHECK(surface.edge_count() == 9 + 3 * 4 * 2);
+  for (int e = 0; e < surface.edge_count(); ++e) {
+    const int h = surface.edge_halfedge[e], twin = surface.halfedges.twin[h];
+    CHECK(surface.edge_of[h] == e);
+    CHECK((twin < 0 || (twin > h && surface.edge_of[twin] == e)));
+  }
+  // Right triangles of half a unit: at the right angle a quarter, at the others an eighth (Meyer et al. 2003).
+  for (int f = 0; f < mesh.face_count(); ++f) CHECK(surface.face_area[f] == Approx(0.5));
+  const auto at = [](int i, int j) { return 4 * j + i; };
+  CHECK(surface.vertex_area[at(0, 0)] == Approx(0.25));
+  CHECK(surface.vertex_area[at(3, 0)] == Approx(0.125 + 0.125));
+  CHECK(surface.vertex_area[at(1, 1)] == Approx(1.0));
+  CHECK(surface.vertex_area[at(1, 0)] == Approx(0.5));
+  CHECK(surface.fan_size[at(0, 0)] == 1);
+  CHECK(surface.fan_size[at(3, 0)] == 2);
+  CHECK(surface.fan_size[at(2, 2)] == 6);
+  // On the boundary the last neighbour has no half-edge that leaves the vertex.
+  std::vector<int> neighbours;
+  surface.for_each_neighbour(at(1, 0), [&](int w, int edge, bool forward) {
+    neighbours.push_back(w);
+    const int h = surface.edge_halfedge[edge];
+    CHECK((forward ? surface.halfedges.from(h) : surface.halfedges.to(h)) == at(1, 0));
+  });
+  CHECK(neighbours == std::vector<int>{at(2, 0), at(1, 1), at(0, 1), at(0, 0)});
+  CHECK(faces_around(surface, {at(0, 0), at(3, 0)}) == std::vector<int>{0, 4, 5});
+  CHECK(vertices_of(mesh.faces, {4, 5}) == std::vector<int>{at(2, 0), at(3, 0), at(2, 1), at(3, 1)});
+}
+
+TEST_CASE("copies of a vertex on a curve are one on the whole surface") {
+  // Vertices 0 and 3 are copies inside a curve, 1, 4 and 5 copies of its corner; 2 is on none.
+  const Seams seams{{0, 1, -1, 0, 1, 1}, {3, -1, -1, 0, -1, -1}, 2};
+  CHECK(seams.any());
+  CHECK(seams.same(0, 3));
+  CHECK(seams.same(1, 5));
+  CHECK_FALSE(seams.same(0, 1));
+  CHECK_FALSE(seams.same(2, 7));  // beyond the end: on no curve
+  CHECK(seams.is_corner(4));
+  CHECK_FALSE(seams.is_corner(3));
+  CHECK(seams.count_whole({0, 1, 2, 3, 4, 5}) == 3);
+  const Seams some = seams.of({1, 3, 0, 4, 5});
+  CHECK(some.other_of(1) == 2);
+  CHECK(some.other_of(2) == 1);
+  CHECK(some.same(0, 4));
+  CHECK(some.is_corner(3));
+}
 
 TEST_CASE("neighbours side by side are those that the faces name, each once") {
   for (const Mesh& mesh : {shapes::sphere(1), shapes::grid(3, 4), shapes::torus(4, 3)}) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # include_direction.sh SOURCE_DIR: fails where a folder, or a room inside one, includes against the direction of the
-# design, or where a header of a heavy library shows in one of ours. CMake's link rules cannot see either: every part is
-# on one include path.
+# design, where a header of a heavy library shows in one of ours, or where a header is included by no test. CMake's link
+# rules cannot see the first two: every part is on one include path.
 set -u
 shopt -s nullglob globstar
 cd "$1" || exit 2
@@ -54,6 +54,15 @@ rooms() {
   done
 }
 
+# tested FOLDER: every header of FOLDER is included by a test that holds it to an answer of its own.
+tested() {
+  local header included
+  included=$(grep -ho '^ *# *include *"[^"]*"' tests/**/*.cpp tests/**/*.h)
+  for header in "$1"/**/*.h; do
+    [[ "$included" == *"\"$header\""* ]] || fail "no test includes $header: hold it to an answer known by hand"
+  done
+}
+
 may_include mesh ''
 may_include param 'mesh'
 may_include remesh 'param|mesh'
@@ -72,4 +81,5 @@ refuse 'metrics and remesh know the result of a parameterization only, not the p
   '^ *# *include *"param/([^/]*|[^m/][^/]*/[^/]*)\.h"' metrics/**/*.h metrics/**/*.cpp remesh/**/*.h remesh/**/*.cpp
 refuse 'a heavy library belongs into one .cpp' \
   '^ *# *include *<(CLI|boost|draco|OpenMesh|sqlite3|toml\+\+|tbb|png|xxhash)' {mesh,param,remesh,coder,metrics,experiments,cli}/**/*.h
+for folder in param coder remesh metrics; do tested $folder; done
 exit $((failures > 0))
