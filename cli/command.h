@@ -32,6 +32,7 @@ void add_distortion(CLI::App& app, Context& context);
 void add_curve(CLI::App& app, Context& context);
 void add_picture(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
+void add_play(CLI::App& app, Context& context);
 void add_baseline(CLI::App& app, Context& context);
 void add_check(CLI::App& app, Context& context);
 void add_export(CLI::App& app, Context& context);

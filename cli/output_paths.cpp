@@ -21,6 +21,7 @@ struct Ending {
 };
 
 constexpr Ending kEndings[] = {{".ply", Content::Ply},
+                               {".glb", Content::Glb},
                                {".pgc", Content::Stream},
                                {".png", Content::Picture},
                                {".csv", Content::Csv},
@@ -32,7 +33,8 @@ constexpr Ending kEndings[] = {{".ply", Content::Ply},
                                {".svg", {}},
                                {".gp", {}},
                                {".toml", {}},
-                               {".html", {}},
+                               {".html", Content::Page},
+                               {".gltf", {}},
                                {".sqlite", {}},
                                {".jpg", {}},
                                {".jpeg", {}},
@@ -40,15 +42,23 @@ constexpr Ending kEndings[] = {{".ply", Content::Ply},
                                {".pdf", {}}};
 
 const char* ending_of(Content content) {
+  if (content == Content::PlyOrGlb) return ".ply or *.glb";
   for (const Ending& known : kEndings)
     if (known.content == content) return known.ending;
   return ".png";
 }
 
-bool denies(const std::string& path, Content content) {
+std::string small_ending(const std::string& path) {
   std::string ending = fs::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+bool denies(const std::string& path, Content content) {
+  const std::string ending = small_ending(path);
   if (content == Content::Figure && (ending == ".svg" || ending == ".gp" || ending == ".png")) return false;
+  if (content == Content::PlyOrGlb && ending == ".glb") return false;
+  if (content == Content::PlyOrGlb) content = Content::Ply;
   const auto known =
       std::find_if(std::begin(kEndings), std::end(kEndings), [&](const Ending& e) { return ending == e.ending; });
   return known != std::end(kEndings) && known->content != content;
@@ -111,6 +121,8 @@ void require_folder(const CommandPaths& paths) {
 }
 
 }  // namespace
+
+bool has_ending(const std::string& path, Content content) { return small_ending(path) == ending_of(content); }
 
 void require_outputs(const CommandPaths& paths) {
   if (paths.folder) require_folder(paths);

@@ -7,14 +7,20 @@ namespace gsp::cli {
 
 /// What an output file holds. An ending that stands for something else is refused; unknown endings and none are taken.
 enum class Content {
-  Ply,      ///< a map, semi-regular mesh or coloured surface
-  Stream,   ///< *.pgc
-  Picture,  ///< PNG
+  Ply,       ///< a map, semi-regular mesh or coloured surface
+  Glb,       ///< binary glTF
+  PlyOrGlb,  ///< as the ending says, PLY for others
+  Stream,    ///< *.pgc
+  Picture,   ///< PNG
   Csv,
   Json,
   Xml,
+  Page,    ///< *.html
   Figure,  ///< the name of three: *.png, *.svg, *.gp
 };
+
+/// Whether a path has the ending of a content, in small or capital letters.
+bool has_ending(const std::string& path, Content content);
 
 /// The option of the output that every command with one needs.
 inline constexpr const char* kRequired = "--output";

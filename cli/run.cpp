@@ -58,7 +58,7 @@ void add_commands(CLI::App& app, Context& context) {
   const std::vector<std::pair<const char*, std::vector<void (*)(CLI::App&, Context&)>>> steps = {
       {"The whole chain", {add_curve, add_report}},
       {"Surfaces", {add_info, add_distance, add_picture}},
-      {"Step by step", {add_parameterize, add_distortion, add_remesh, add_encode, add_decode}},
+      {"Step by step", {add_parameterize, add_distortion, add_remesh, add_encode, add_decode, add_play}},
       {"Many runs", {add_sweep, add_sweep_worker, add_baseline, add_check, add_export}}};
   for (const auto& [step, commands] : steps)
     for (const auto& add : commands) {

@@ -1,7 +1,6 @@
 #include "coder/importance.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "coder/bitplane_coder.h"
@@ -32,7 +31,7 @@ double along(const Vec3& f, const Moment& m) {
 std::int8_t urgency_of(double ratio) {
   static_assert(kPassesPerPlane == 4);
   if (!(ratio > 1e-30)) return kMinUrgency;
-  const auto bits = std::bit_cast<std::uint64_t>(ratio);
+  const auto bits = Eigen::numext::bit_cast<std::uint64_t>(ratio);
   const int exponent = static_cast<int>(bits >> 52) - 1023;
   const std::uint64_t mantissa = bits & ((std::uint64_t{1} << 52) - 1);
   // Fractions of 2^1/4 and 2^3/4.

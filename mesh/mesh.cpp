@@ -1,5 +1,7 @@
 #include "mesh/mesh.h"
 
+#include <Eigen/Geometry>
+
 #include "mesh/bounding_box.h"
 #include "mesh/topology.h"
 
@@ -29,6 +31,16 @@ double surface_area(const Mesh& mesh) {
   double sum = 0.0;
   for (int f = 0; f < mesh.face_count(); ++f) sum += face_area(mesh, f);
   return sum;
+}
+
+std::vector<Vec3> vertex_normals(const Mesh& mesh) {
+  std::vector<Vec3> normals(mesh.positions.size(), Vec3::Zero());
+  for (const Triangle& t : mesh.faces) {
+    const Vec3 normal =
+        (mesh.positions[t[1]] - mesh.positions[t[0]]).cross(mesh.positions[t[2]] - mesh.positions[t[0]]);
+    for (int v : t) normals[v] += normal;
+  }
+  return normals;
 }
 
 }  // namespace gsp

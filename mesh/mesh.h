@@ -34,4 +34,8 @@ double face_area(const Mesh& mesh, int face);
 /// Sum of all face areas, in face order. Throws Error(IndexOutOfRange).
 double surface_area(const Mesh& mesh);
 
+/// #V, the sum over the faces of each vertex of their area vectors, twice as long: normals by area, of any length, 0
+/// where no face is. The faces' vertices exist. O(V + F).
+std::vector<Vec3> vertex_normals(const Mesh& mesh);
+
 }  // namespace gsp

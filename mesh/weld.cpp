@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <tuple>
@@ -20,7 +19,7 @@ std::vector<int> first_at_same_position(const std::vector<Vec3>& positions) {
   entries.reserve(positions.size());
   for (const Vec3& p : positions) {
     Entry entry{{}, static_cast<int>(entries.size())};
-    for (int k = 0; k < 3; ++k) entry.bits[k] = std::bit_cast<std::uint64_t>(p[k] + 0.0);  // -0 + 0 is +0
+    for (int k = 0; k < 3; ++k) entry.bits[k] = Eigen::numext::bit_cast<std::uint64_t>(p[k] + 0.0);  // -0 + 0 is +0
     entries.push_back(entry);
   }
   std::sort(entries.begin(), entries.end(),

@@ -49,16 +49,6 @@ Projected project(const Mesh& mesh, const Camera& camera, int size) {
   return result;
 }
 
-std::vector<Vec3> vertex_normals(const Mesh& mesh) {
-  std::vector<Vec3> normals(mesh.positions.size(), Vec3::Zero());
-  for (const Triangle& t : mesh.faces) {
-    const Vec3 normal =
-        (mesh.positions[t[1]] - mesh.positions[t[0]]).cross(mesh.positions[t[2]] - mesh.positions[t[0]]);
-    for (int v : t) normals[v] += normal;
-  }
-  return normals;
-}
-
 /// What a sample sees: the nearest face and where in it.
 struct Sample {
   double depth = -std::numeric_limits<double>::infinity();

@@ -14,6 +14,7 @@
 #include "experiments/curve/summary.h"
 #include "experiments/output/decibels.h"
 #include "experiments/output/quoting.h"
+#include "experiments/play/page_parts.h"
 #include "experiments/report/page.h"
 #include "experiments/report/run_figures.h"
 #include "experiments/report/view_data.h"
@@ -117,7 +118,8 @@ class Report {
         make_folder(folder_ + "/views");
         const std::string name = fmt::format("views/{}.js", views_.size());
         Progress named = progress_.within(model.name + ", " + cell->label);
-        write_text(folder_ + "/" + name, fmt::format("gspView(\"{}\", {});\n", name, view_json(model, *cell, named)));
+        write_text(folder_ + "/" + name,
+                   fmt::format("gspView(\"{}\", {});\n", name, view_json(model, *cell, has_browser_decoder(), named)));
         views_[{model.name, cell->label}] = name;
         result_.files.push_back(folder_ + "/" + name);
       }

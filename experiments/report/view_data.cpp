@@ -8,12 +8,13 @@
 #include <Eigen/Geometry>
 
 #include "coder/codec.h"
-#include "experiments/figures/camera.h"
 #include "experiments/figures/map_measures.h"
 #include "experiments/figures/paint.h"
 #include "experiments/figures/remesh_map.h"
+#include "experiments/output/base64.h"
 #include "experiments/output/decibels.h"
 #include "experiments/output/quoting.h"
+#include "experiments/play/view_frame.h"
 #include "mesh/io.h"
 #include "mesh/read_file.h"
 #include "metrics/surface_distance.h"
@@ -30,19 +31,6 @@ constexpr std::size_t kMostSizes = 8;
 /// Below this a decoded surface is hardly one.
 constexpr std::size_t kLeastBytes = 512;
 
-std::string base64(std::span<const std::uint8_t> bytes) {
-  static const char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (k < count ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[word >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
 template <class Number>
 std::string base64_little_endian(const std::vector<Number>& numbers) {
   std::vector<std::uint8_t> bytes;
@@ -50,13 +38,6 @@ std::string base64_little_endian(const std::vector<Number>& numbers) {
   for (Number number : numbers)
     for (std::size_t k = 0; k < sizeof(Number); ++k) bytes.push_back(static_cast<std::uint8_t>(number >> (8 * k)));
   return base64(bytes);
-}
-
-int view_level(const SemiregularMesh& mesh) {
-  int level = 0;
-  while (level < mesh.level && static_cast<long long>(mesh.base_faces.size()) << (2 * (level + 1)) <= kMostFaces)
-    ++level;
-  return level;
 }
 
 /// For each patch the vertices at (i + jω) / n of its chart, row by row.
@@ -142,10 +123,26 @@ std::string positions_text(const std::vector<Vec3>& positions, const Eigen::Alig
   return base64_little_endian(numbers);
 }
 
-Json triple(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+/// The streams of the shown sizes, and of each size which of them it is a prefix of.
+struct Streams {
+  std::vector<std::string> texts;  ///< base64
+  std::vector<std::size_t> of_size;
 
-Json size_json(const CurvePoint& point, const Mesh& decoded, const SurfaceTree& input, double diagonal,
-               const Eigen::AlignedBox3d& box) {
+  Streams(const StoredCell& cell, const std::vector<CurvePoint>& points) {
+    std::vector<std::string> paths;
+    for (const CurvePoint& point : points) {
+      const std::string path = cell.stream_file(point.bytes);
+      const auto known = std::find(paths.begin(), paths.end(), path);
+      of_size.push_back(static_cast<std::size_t>(known - paths.begin()));
+      if (known != paths.end()) continue;
+      paths.push_back(path);
+      const std::string file = read_file(path);
+      texts.push_back(base64({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()}));
+    }
+  }
+};
+
+Json size_json(const CurvePoint& point, const Mesh& decoded, const SurfaceTree& input, double diagonal) {
   std::vector<double> distances = vertex_distances(decoded, input);
   for (double& d : distances) d /= diagonal;
   std::vector<Weighted> weighted;
@@ -153,21 +150,20 @@ Json size_json(const CurvePoint& point, const Mesh& decoded, const SurfaceTree& 
   const double p95 = statistics(std::move(weighted)).p95;
   Json size = {{"bytes", point.bytes}};
   put_db(size, "psnr_db", point.psnr_db);
-  size.update({{"positions", positions_text(decoded.positions, box)},
-               {"distance", base64(shares(distances, {0.0, p95}))},
-               {"distance_scale", p95}});
+  size.update({{"distance", base64(shares(distances, {0.0, p95}))}, {"distance_scale", p95}});
   return size;
 }
 
 }  // namespace
 
-std::string view_json(const StoredModel& model, const StoredCell& cell, Progress& progress) {
+std::string view_json(const StoredModel& model, const StoredCell& cell, bool with_streams, Progress& progress) {
   const Mesh input = read_mesh(model.path);
   const SurfaceTree tree(input);
+  const double diagonal = bounding_box_diagonal(input);
   const std::vector<CurvePoint> points = shown_points(cell);
 
   const SemiregularMesh whole = decoded_point(cell, points.back());
-  const int level = view_level(whole);
+  const int level = level_within(whole, kMostFaces);
   std::vector<Mesh> decoded;
   Eigen::AlignedBox3d box;
   for (const CurvePoint& point : points) {
@@ -177,26 +173,21 @@ std::string view_json(const StoredModel& model, const StoredCell& cell, Progress
   }
 
   const Parameterization map = remesh_as_map(at_level(whole, level));
-  const Camera camera = make_camera(input, {});
-  Json colours = Json::array();
-  for (const Colour& c : patch_colours(map.base)) {
-    const Colour rgb = (255.0 * c).round();
-    colours.push_back({static_cast<int>(rgb[0]), static_cast<int>(rgb[1]), static_cast<int>(rgb[2])});
-  }
+  Json view = view_frame(input, map.base, box, level);
   Json sizes = Json::array();
-  for (std::size_t i = 0; i < points.size(); ++i)
-    sizes.push_back(size_json(points[i], decoded[i], tree, bounding_box_diagonal(input), box));
-  const Json view = {{"model", printable(model.name)},
-                     {"label", printable(cell.label)},
-                     {"level", level},
-                     {"outward", orientation(input)},
-                     {"camera", {triple(camera.right), triple(camera.up), triple(camera.toward)}},
-                     {"low", triple(box.min())},
-                     {"high", triple(box.max())},
-                     {"patch_colours", colours},
-                     {"grid", base64_little_endian(patch_grid(map, level))},
-                     {"measures", measures_json(map)},
-                     {"sizes", sizes}};
+  for (std::size_t i = 0; i < points.size(); ++i) sizes.push_back(size_json(points[i], decoded[i], tree, diagonal));
+  if (with_streams) {
+    const Streams streams(cell, points);
+    for (std::size_t i = 0; i < points.size(); ++i) sizes[i]["stream"] = streams.of_size[i];
+    view["streams"] = streams.texts;
+  } else {
+    for (std::size_t i = 0; i < points.size(); ++i) sizes[i]["positions"] = positions_text(decoded[i].positions, box);
+    view["grid"] = base64_little_endian(patch_grid(map, level));
+  }
+  view.update({{"model", printable(model.name)},
+               {"label", printable(cell.label)},
+               {"measures", measures_json(map)},
+               {"sizes", sizes}});
   return view.dump();
 }
 

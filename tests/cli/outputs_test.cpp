@@ -57,6 +57,7 @@ TEST_CASE("an output that is an input is refused with status 2 before anything i
            {"remesh", at("r.sr.ply"), "-o", at("hard.ply")},
            {"encode", at("c.pgc"), "-o", at("c.pgc")},
            {"decode", at("r.sr.ply"), "-o", at("hard.ply")},
+           {"play", at("c.pgc"), "-o", at("c.pgc")},
            {"distance", at("other.ply"), at("r.sr.ply"), "--per-vertex", at("other.ply")},
            {"distance", at("other.ply"), at("r.sr.ply"), "--per-vertex", at("r.sr.ply")},
            {"distortion", at("m.param.ply"), "--picture", at("m.param.ply")},
@@ -88,6 +89,10 @@ TEST_CASE("an ending that denies the content is refused; others and none are tak
     CHECK(status({"distance", map, map}, "--per-vertex", output) == 2);
   }
   CHECK(status({"encode", map}, "-o", "x.ply") == 2);
+  CHECK(status({"remesh", map}, "-o", "x.glb") == 2);
+  CHECK(status({"decode", map}, "-o", "x.gltf") == 2);
+  CHECK(status({"decode", map, "--levels"}, "-o", "x.ply") == 2);
+  CHECK(status({"play", map}, "-o", "x.ply") == 2);
   CHECK(status({"picture", map}, "-o", "x.jpg") == 2);
   CHECK(status({"picture", map}, "-o", "x.svg") == 2);
   CHECK(status({"distortion", map}, "--per-face", "x.json") == 2);
@@ -95,6 +100,7 @@ TEST_CASE("an ending that denies the content is refused; others and none are tak
   // These go on to read, and find that the files are none.
   for (const char* output : {"x", "x.PLY", "x.map"}) CHECK(status({"remesh", map}, "-o", output) == 3);
   CHECK(status({"encode", map}, "-o", "x.bin") == 3);
+  CHECK(status({"decode", map}, "-o", "x.GLB") == 3);
 }
 
 TEST_CASE("a place that cannot be written is told before anything is read, with status 1") {

@@ -11,8 +11,8 @@
 
 namespace {
 
-const std::vector<std::string> kCommands = {"info",     "parameterize", "remesh", "encode",  "decode",
-                                            "distance", "distortion",   "curve",  "picture", "report"};
+const std::vector<std::string> kCommands = {"info",       "parameterize", "remesh",  "encode", "decode", "distance",
+                                            "distortion", "curve",        "picture", "report", "play"};
 
 std::string text_of(const std::string& path) {
   std::ifstream in(path);
@@ -42,7 +42,8 @@ TEST_CASE("the help of every command gives the default and range of every option
       const bool flag = contains(entry, "--help") || contains(entry, "--json") || contains(entry, "--quiet") ||
                         contains(entry, "--verbose") || contains(entry, "--check ") ||
                         contains(entry, "--no-anchors") || contains(entry, "--no-figures") ||
-                        contains(entry, "--metro ") || contains(entry, "--mpeg ") || contains(entry, "--profile ");
+                        contains(entry, "--metro ") || contains(entry, "--mpeg ") || contains(entry, "--profile ") ||
+                        contains(entry, "--levels ");
       CHECK((flag || contains(entry, "[") || contains(entry, "(required)")));
     };
     while (std::getline(lines, line)) {

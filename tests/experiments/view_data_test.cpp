@@ -14,8 +14,8 @@ using namespace gsp;
 
 namespace {
 
-/// The sizes that the 3D view of a small stream shows, of those that were measured.
-std::vector<std::size_t> shown_sizes(const std::vector<std::size_t>& measured) {
+/// The 3D view of a small stream that was measured at such sizes.
+nlohmann::json view_of(const std::vector<std::size_t>& measured, bool with_streams) {
   const TemporaryFolder folder;
   const Mesh mesh = shapes::sphere(2);
   write_mesh(folder.file("s.ply"), mesh);
@@ -33,8 +33,12 @@ std::vector<std::size_t> shown_sizes(const std::vector<std::size_t>& measured) {
   measure.artefacts["stream"] = folder.file("s.pgc");
   for (std::size_t bytes : measured) measure.points.emplace_back().bytes = bytes;
   cell.stages.push_back(measure);
+  return nlohmann::json::parse(view_json(model, cell, with_streams, silent));
+}
+
+std::vector<std::size_t> shown_sizes(const std::vector<std::size_t>& measured) {
   std::vector<std::size_t> sizes;
-  const nlohmann::json view = nlohmann::json::parse(view_json(model, cell, silent));
+  const nlohmann::json view = view_of(measured, false);
   for (const auto& size : view["sizes"]) sizes.push_back(size["bytes"].get<std::size_t>());
   return sizes;
 }
@@ -45,4 +49,18 @@ TEST_CASE("the 3D view leaves sizes under 512 bytes out, but not where there are
   CHECK(shown_sizes({200, 300, 600, 700}) == std::vector<std::size_t>{600, 700});
   CHECK(shown_sizes({200, 300}) == std::vector<std::size_t>{200, 300});
   CHECK(shown_sizes({300}) == std::vector<std::size_t>{300});
+}
+
+TEST_CASE("a view holds the stream once where the page decodes it, else the connectivity and positions of each size") {
+  const nlohmann::json streams = view_of({600, 700}, true), stored = view_of({600, 700}, false);
+  CHECK(streams["streams"].size() == 1);
+  CHECK(streams["sizes"][1]["stream"] == 0);
+  CHECK_FALSE(streams.contains("grid"));
+  CHECK_FALSE(streams["sizes"][0].contains("positions"));
+  CHECK_FALSE(stored.contains("streams"));
+  CHECK(stored.contains("grid"));
+  CHECK(stored["sizes"][0].contains("positions"));
+  for (const char* name : {"level", "low", "high", "camera", "patch_colours", "measures", "outward"})
+    CHECK(streams[name] == stored[name]);
+  CHECK(streams["sizes"][0]["distance"] == stored["sizes"][0]["distance"]);
 }

@@ -75,7 +75,7 @@ rooms mesh files features
 rooms param map atlas linear refined energy removal simplify reinsert corners baselines creases stages
 rooms remesh filters normal displaced scalar
 rooms coder displaced
-rooms experiments output external figures cells base curve plot store sweep check report
+rooms experiments output external figures cells base curve plot store sweep check play report
 refuse 'the coder knows the semi-regular mesh only, not the remesher' '"remesh/(remesh|param)' coder/**/*.h coder/**/*.cpp
 refuse 'metrics and remesh know the result of a parameterization only, not the parameterizer' \
   '^ *# *include *"param/([^/]*|[^m/][^/]*/[^/]*)\.h"' metrics/**/*.h metrics/**/*.cpp remesh/**/*.h remesh/**/*.cpp

@@ -73,7 +73,7 @@
   function legendOf(view, kind, size) {
     const hint = 'Drag to turn, scroll to come nearer, double-click to reset.';
     if (kind === 'distance') {
-      const scale = view.sizes[size].distance_scale;
+      const scale = size.distance_scale;
       return ramp('0', `${scale.toExponential(2)} of the diagonal`, `Distance of the decoded surface to the input; red from the worst 5% of the vertices on. ${hint}`);
     }
     const measure = view.measures[kind];
@@ -82,29 +82,78 @@
     return [hint];
   }
 
+  const kindOf = () => (kinds.some(([name]) => name === State.get('colours')) ? State.get('colours') : 'patches');
+
+  // Whether the slider stops at any byte: where there is one stream, and no distances, which are known of a few sizes.
+  const anySize = (view, kind) => view.streams && view.streams.length === 1 && kind !== 'distance';
+  const kSteps = 1000;
+
+  // Of the sizes that were measured the nearest one.
+  function measuredSize(view, bytes) {
+    const away = (s) => Math.abs(Math.log(s.bytes / bytes));
+    return view.sizes.reduce((best, s) => (away(s) < away(best) ? s : best));
+  }
+
+  function shownBytes(view, kind) {
+    const given = Number(State.get('size')), low = view.sizes[0].bytes, high = view.sizes[view.sizes.length - 1].bytes;
+    const bytes = given > 0 ? Math.min(high, Math.max(low, Math.round(given))) : high;
+    return anySize(view, kind) ? bytes : measuredSize(view, bytes).bytes;
+  }
+
+  function bytesOfPlace(view, place) {
+    const { sizes } = view;
+    return anySize(view, kindOf()) ? bytesAt(place, kSteps, sizes[0].bytes, sizes[sizes.length - 1].bytes) : sizes[place].bytes;
+  }
+
+  function setBudget(view, bytes) {
+    const { sizes } = view, budget = byId('budget'), any = anySize(view, kindOf());
+    budget.max = any ? kSteps : sizes.length - 1;
+    // Several places may stand for the same byte: a slider that is at one of them stays.
+    if (any && bytesOfPlace(view, Number(budget.value)) === bytes) return;
+    budget.value = any ? placeOf(bytes, kSteps, sizes[0].bytes, sizes[sizes.length - 1].bytes) : sizes.findIndex((s) => s.bytes === bytes);
+  }
+
+  // What is drawn of a view at so many bytes: decoded, or as it is stored.
+  let drawn = null;
+  async function shapeAt(view, bytes) {
+    if (drawn && drawn.view === view && drawn.bytes === bytes) return drawn.shape;
+    const size = measuredSize(view, bytes);
+    let shape = null;
+    if (view.streams) shape = await decodedShape(view, bytes, size.stream);
+    else {
+      view.stored ||= new Uint32Array(Surface.bytesOf(view.grid).buffer);
+      const position = Surface.stored(view, size.positions);
+      shape = { level: view.level, grid: view.stored, vertices: position.length / 3, position };
+    }
+    drawn = { view, bytes, shape };
+    return shape;
+  }
+
+  const showShape = latest(async ({ view, bytes, look }) => {
+    try {
+      const shape = await shapeAt(view, bytes), size = measuredSize(view, bytes);
+      const db = size.bytes !== bytes ? '' : size.psnr_db === null ? ', exact' : `, ${dbText(size.psnr_db, 1)} dB`;
+      byId('budget-value').textContent = `${bytesText(bytes)}, ${shape.vertices.toLocaleString('en')} vertices${db}`;
+      Viewer.show(view, shape, look);
+      message('');
+    } catch (error) {
+      message(`The surface cannot be shown: ${error.message}`);
+    }
+  });
+
   function showView(view) {
-    const sizes = view.sizes, given = Number(State.get('size'));
-    const exact = sizes.findIndex((s) => s.bytes === given);
-    const size = exact >= 0 ? exact : sizes.length - 1;
-    const kind = kinds.some(([name]) => name === State.get('colours')) ? State.get('colours') : 'patches';
+    const kind = kindOf(), bytes = shownBytes(view, kind), size = measuredSize(view, bytes);
     const density = 2 ** Math.min(5, Math.max(0, Number(State.get('lines')) || 0));
-    byId('budget').max = sizes.length - 1;
-    byId('budget').value = size;
-    byId('budget-value').textContent = `${bytesText(sizes[size].bytes)} (${sizes[size].psnr_db === null ? 'exact' : `${dbText(sizes[size].psnr_db, 1)} dB`})`;
+    setBudget(view, bytes);
     byId('lines').value = Math.log2(density);
     byId('lines-value').textContent = density;
     byId('lines-control').style.visibility = kind === 'isolines' ? 'visible' : 'hidden';
     byId('edges').checked = State.flag('edges');
     choice(byId('view-kinds'), 'colours', kinds, kind);
     byId('view-legend').replaceChildren(...legendOf(view, kind, size));
-    const values = kind === 'distance' ? sizes[size].distance : view.measures[kind] ? view.measures[kind].values : null;
+    const values = kind === 'distance' ? size.distance : view.measures[kind] ? view.measures[kind].values : null;
     const number = kind === 'patches' ? 0 : kind === 'isolines' ? 1 : values ? 2 : 3;
-    message('');
-    try {
-      Viewer.show(view, { size, kind: number, values, density, edges: State.flag('edges') });
-    } catch (error) {
-      message(`This browser shows no 3D view: ${error.message}`);
-    }
+    showShape({ view, bytes, look: { kind: number, values, density, edges: State.flag('edges') } });
   }
 
   function drawView() {
@@ -184,7 +233,7 @@
     const model = viewed.find((m) => m.name === State.get('model')) || viewed[0];
     const curves = model.curves.filter((c) => c.view);
     const view = views[(curves.find((c) => c.label === State.get('label')) || curves[0]).view];
-    if (view) State.set('size', view.sizes[Number(e.target.value)].bytes);
+    if (view) State.set('size', bytesOfPlace(view, Number(e.target.value)));
   });
   byId('csv').addEventListener('click', csv);
   State.on(drawChart);

@@ -97,9 +97,9 @@ const Viewer = (() => {
     });
   }
 
-  function load(view) {
-    if (shown && shown.view === view) return;
-    const connectivity = Surface.connectivity(view);
+  function load(view, level, grid) {
+    if (shown && shown.view === view && shown.level === level) return;
+    const connectivity = Surface.connectivity(grid, level, view.patch_colours);
     const geometry = new THREE.BufferGeometry();
     geometry.setIndex(new THREE.BufferAttribute(connectivity.index, 1));
     geometry.setAttribute('weights', new THREE.BufferAttribute(connectivity.weights, 2));
@@ -107,16 +107,15 @@ const Viewer = (() => {
     mesh.geometry.dispose();
     mesh.geometry = geometry;
     const another = !shown || shown.view.model !== view.model;
-    shown = { view, connectivity, size: -1, values: null };
+    shown = { view, level, connectivity, position: null, values: null };
     material.uniforms.facing.value = view.outward;
     if (another) home(view);
   }
 
-  function setSize(index) {
-    if (shown.size === index) return;
-    shown.size = index;
+  function setPosition(position) {
+    if (shown.position === position) return;
+    shown.position = position;
     const { grid, index: faces } = shown.connectivity;
-    const position = Surface.positions(shown.view, shown.view.sizes[index].positions);
     const normal = Surface.normals(grid, faces, position);
     mesh.geometry.setAttribute('position', new THREE.BufferAttribute(Surface.spread(grid, position, 3), 3));
     mesh.geometry.setAttribute('normal', new THREE.BufferAttribute(Surface.spread(grid, normal, 3), 3));
@@ -131,10 +130,11 @@ const Viewer = (() => {
     mesh.geometry.setAttribute('value', new THREE.BufferAttribute(shares, 1));
   }
 
-  function show(view, { size, kind, values, density, edges }) {
+  // `shape`: level, grid (surface.js) and fitted positions. Its positions are an array of their own for each surface.
+  function show(view, shape, { kind, values, density, edges }) {
     if (!renderer) start(byId('view'));
-    load(view);
-    setSize(size);
+    load(view, shape.level, shape.grid);
+    setPosition(shape.position);
     setValues(values);
     material.uniforms.kind.value = kind;
     material.uniforms.density.value = density;

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace gsp {
+
+/// Base64 (RFC 4648, with padding), as a page holds bytes. O(bytes).
+std::string base64(std::span<const std::uint8_t> bytes);
+
+}  // namespace gsp
