@@ -47,7 +47,6 @@ async function loadDecoder(bytes) {
 
 // The decoder in a worker, so that the page goes on being drawn. Each function returns a promise.
 const Decoder = (() => {
-  const text = byId('decoder') ? byId('decoder').textContent.trim() : '';
   let worker = null, calls = 0;
   const waiting = new Map();
 
@@ -80,14 +79,12 @@ const Decoder = (() => {
       waiting.delete(number);
       if (error === null) done(result); else failed(new Error(error));
     };
-    await call('load', Surface.bytesOf(text));
+    await call('load', await Surface.unpacked('decoder'));
   }
 
   let started = null;
   const within = async (...request) => { await (started ||= start()); return call(...request); };
   return {
-    // Whether this page has the module: the program that made it may have been built without.
-    exists: text !== '',
     open: (stream) => within('open', stream),
     headerBytes: (handle) => within('headerBytes', handle),
     decode: (handle, count, finest) => within('decode', handle, count, finest),

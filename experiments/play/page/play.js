@@ -24,7 +24,7 @@
       if (shown !== bytes) shape = await decodedShape(view, bytes);
       shown = bytes;
       const kind = State.get('colours');
-      Viewer.show(view, shape, { kind: numbers[kind] ?? 3, values: null, density: 2 ** Number(State.get('lines')), edges: State.flag('edges') });
+      await Viewer.show(view, shape, { kind: numbers[kind] ?? 3, values: null, density: 2 ** Number(State.get('lines')), edges: State.flag('edges') });
       byId('decoded').textContent = `${bytes.toLocaleString('en')} of ${high.toLocaleString('en')} bytes, ` +
         `${shape.vertices.toLocaleString('en')} vertices, level ${shape.level}` +
         (view.level < view.stream_level ? `, of ${view.stream_level}: finer ones are not shown` : '');

@@ -7,6 +7,12 @@ const Surface = (() => {
     return bytes;
   }
 
+  // The bytes of a script element that holds base64 of gzip.
+  async function unpacked(id) {
+    const packed = new Blob([bytesOf(byId(id).textContent.trim())]).stream();
+    return new Uint8Array(await new Response(packed.pipeThrough(new DecompressionStream('gzip'))).arrayBuffer());
+  }
+
   // Places on the grid of the corners of the faces that a patch is quadrisected into, by the rule of
   // remesh/semiregular.h.
   function corners(level) {
@@ -99,5 +105,5 @@ const Surface = (() => {
 
   const shares = (text) => Float32Array.from(bytesOf(text), (v) => v / 255);
 
-  return { bytesOf, gridOf, connectivity, fitted, stored, normals, spread, shares };
+  return { bytesOf, unpacked, gridOf, connectivity, fitted, stored, normals, spread, shares };
 })();

@@ -37,7 +37,9 @@ const Viewer = (() => {
 
   let renderer = null, scene, camera, mesh, material, shown = null, reach = 3.4, turn, wanted = false;
 
-  function start(canvas) {
+  async function start(canvas) {
+    // A classic script, which makes the global THREE.
+    (0, eval)(new TextDecoder().decode(await Surface.unpacked('three')));
     renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     renderer.setPixelRatio(window.devicePixelRatio || 1);
     scene = new THREE.Scene();
@@ -131,8 +133,9 @@ const Viewer = (() => {
   }
 
   // `shape`: level, grid (surface.js) and fitted positions. Its positions are an array of their own for each surface.
-  function show(view, shape, { kind, values, density, edges }) {
-    if (!renderer) start(byId('view'));
+  let started = null;
+  async function show(view, shape, { kind, values, density, edges }) {
+    await (started ||= start(byId('view')));
     load(view, shape.level, shape.grid);
     setPosition(shape.position);
     setValues(values);

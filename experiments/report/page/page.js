@@ -134,7 +134,7 @@
       const shape = await shapeAt(view, bytes), size = measuredSize(view, bytes);
       const db = size.bytes !== bytes ? '' : size.psnr_db === null ? ', exact' : `, ${dbText(size.psnr_db, 1)} dB`;
       byId('budget-value').textContent = `${bytesText(bytes)}, ${shape.vertices.toLocaleString('en')} vertices${db}`;
-      Viewer.show(view, shape, look);
+      await Viewer.show(view, shape, look);
       message('');
     } catch (error) {
       message(`The surface cannot be shown: ${error.message}`);
