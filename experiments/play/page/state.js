@@ -12,7 +12,16 @@ const State = (() => {
     for (const [name, value] of given) if (name in defaults) values[name] = value;
   };
 
+  // Browsers take some twenty changes of the address a second, and warn beyond; a slider makes more. The last one counts.
+  const recent = [];
+  let later = null;
   const write = () => {
+    const now = performance.now(), kMost = 10;
+    if (recent.length === kMost && now - recent[0] < 1000) {
+      later ||= setTimeout(() => { later = null; write(); }, 200);
+      return;
+    }
+    if (recent.push(now) > kMost) recent.shift();
     const parameters = new URLSearchParams();
     for (const name of Object.keys(defaults))
       if (name in values && values[name] !== defaults[name]) parameters.set(name, values[name]);

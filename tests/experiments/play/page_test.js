@@ -37,10 +37,17 @@
     expect(byId('decoded').textContent.includes(`${Math.floor(vertices).toLocaleString('en')} vertices, level ${view.level}`), 'vertices and level are told');
 
     const whole = pixels();
+    for (let k = 0; k < 600; ++k) slide(k % 1000);
+    slide(500);
+    const middle = () => location.hash.includes(`bytes=${bytesAt(500, 1000, view.header_bytes, view.bytes)}`);
+    await settled(middle);
+    expect(middle(), 'of many sizes in a moment the last one is in the address');
     slide(0);
     await settled(() => different(whole, pixels()) > 0.001);
     expect(different(whole, pixels()) > 0.001, 'fewer bytes decode to another surface');
+    await settled(() => location.hash.includes(`bytes=${view.header_bytes}`));
     expect(location.hash.includes(`bytes=${view.header_bytes}`), 'the size is in the address');
+    await settled(() => byId('decoded').textContent.startsWith(`${view.header_bytes} of`));
     expect(byId('decoded').textContent.startsWith(`${view.header_bytes} of`), 'the shortest prefix is the header');
     slide(1000);
     await settled(() => different(whole, pixels()) < 0.0001);
