@@ -43,6 +43,8 @@ void add_report(CLI::App& app, Context& context) {
                         "folder for index.html, which opens from disk, and what it shows");
   command.text("--recipe", options->report.recipe, "of a store with several", "the latest");
   command.integer("--views", options->report.views, 0, 100, "cells of each model in the 3D view, a few MB each");
+  command.flag("--stored-surfaces", options->report.stored_surfaces,
+               "views hold surfaces of eight sizes, for browsers without WebAssembly, instead of the streams");
   command.flag("--no-figures", options->no_figures, "leave the figures out, and with them gnuplot");
   command.on_run([options, &context] { return run_report(*options, context); });
 }

@@ -1,6 +1,7 @@
 #include "experiments/play/wasm_decoder.h"
 
 #include <algorithm>
+#include <exception>
 #include <memory>
 #include <new>
 #include <string>
@@ -35,6 +36,8 @@ auto guarded(Work work) -> decltype(work()) {
     failure = std::string(cause_name(error.cause())) + ": " + error.what();
   } catch (const std::bad_alloc&) {
     failure = std::string(cause_name(gsp::Cause::OutOfMemory)) + ": there is not enough memory";
+  } catch (const std::exception& error) {
+    failure = std::string(cause_name(gsp::Cause::Internal)) + ": " + error.what();
   }
   return {};
 }

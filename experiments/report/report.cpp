@@ -112,6 +112,7 @@ class Report {
   }
 
   void write_views() {
+    const bool streams = has_browser_decoder() && !options_.stored_surfaces;
     for (const StoredModel& model : run_.models) {
       if (model.path.empty()) continue;
       for (const StoredCell* cell : viewed_cells(model)) {
@@ -119,7 +120,7 @@ class Report {
         const std::string name = fmt::format("views/{}.js", views_.size());
         Progress named = progress_.within(model.name + ", " + cell->label);
         write_text(folder_ + "/" + name,
-                   fmt::format("gspView(\"{}\", {});\n", name, view_json(model, *cell, has_browser_decoder(), named)));
+                   fmt::format("gspView(\"{}\", {});\n", name, view_json(model, *cell, streams, named)));
         views_[{model.name, cell->label}] = name;
         result_.files.push_back(folder_ + "/" + name);
       }

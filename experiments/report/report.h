@@ -12,6 +12,9 @@ struct ReportOptions {
   std::string recipe;   ///< of a store with several; empty stands for the latest
   bool figures = true;  ///< draw the figures, which wants gnuplot
   int views = 3;        ///< cells of each model in the 3D view, 0..100
+  /// Views hold decoded surfaces of up to eight sizes, for browsers without WebAssembly. They do so too where gsp was
+  /// built without emscripten; else they hold the streams, which take a third of the bytes, and decode any size.
+  bool stored_surfaces = false;
 };
 
 struct ReportResult {

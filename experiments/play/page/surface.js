@@ -86,11 +86,13 @@ const Surface = (() => {
   function normals(grid, index, position) {
     const sum = new Float32Array(position.length);
     for (let f = 0; f < index.length; f += 3) {
-      const [a, b, c] = [3 * grid[index[f]], 3 * grid[index[f + 1]], 3 * grid[index[f + 2]]];
+      const a = 3 * grid[index[f]], b = 3 * grid[index[f + 1]], c = 3 * grid[index[f + 2]];
       const ux = position[b] - position[a], uy = position[b + 1] - position[a + 1], uz = position[b + 2] - position[a + 2];
       const vx = position[c] - position[a], vy = position[c + 1] - position[a + 1], vz = position[c + 2] - position[a + 2];
       const nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-      for (const v of [a, b, c]) { sum[v] += nx; sum[v + 1] += ny; sum[v + 2] += nz; }
+      sum[a] += nx; sum[a + 1] += ny; sum[a + 2] += nz;
+      sum[b] += nx; sum[b + 1] += ny; sum[b + 2] += nz;
+      sum[c] += nx; sum[c + 1] += ny; sum[c + 2] += nz;
     }
     return sum;
   }

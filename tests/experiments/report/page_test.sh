@@ -17,5 +17,8 @@ base_vertices = 12
 samples = 2000
 TOML
 "$gsp" sweep "$work/tiny.toml" --store "$work/store" --quiet > "$work/sweep.txt"
-"$gsp" report "$work/store" -o "$work/report" --no-figures --quiet > "$work/report.txt"
-run_in_page "$browser" "$work/report/index.html" "$here/page_test.js"
+# As it is, and as a gsp without emscripten makes it.
+for stored in '' --stored-surfaces; do
+  "$gsp" report "$work/store" -o "$work/report$stored" --no-figures --quiet $stored > "$work/report.txt"
+  run_in_page "$browser" "$work/report$stored/index.html" "$here/page_test.js"
+done
