@@ -61,8 +61,9 @@ thread_local int alone_here = 0;
 /// While one lives, solvers use this thread alone. A threaded BLAS sums in an order that depends on the number of
 /// threads; results must not. CHOLMOD's own threads make loops that are too short for them, and take a fifth of its
 /// time. OpenBLAS has one number of threads for the process: the first that begins sets it and the last that ends puts
-/// back what was there. OpenMP's setting is the calling thread's own. It is made after the solver: the program loads the
-/// libraries with the first one (cli/late_suitesparse.cpp). Throws std::bad_alloc where the BLAS would have no room.
+/// back what was there. OpenMP's setting is the calling thread's own. It is made after the solver: the program loads
+/// the libraries with the first one (cli/late_suitesparse.cpp). Throws std::bad_alloc where the BLAS would have no
+/// room.
 class OneSolverThread {
  public:
   OneSolverThread() {

@@ -32,7 +32,8 @@ TEST_CASE("impossible values are refused with the reason") {
   CHECK(axis("gamma").refusal(-1.0) == "-1 is not 0 to 1000000");
   CHECK(axis("relaxations").refusal(std::int64_t{-1}) == "-1 is not an integer 0 to 1000");
   CHECK(axis("relaxations").refusal(0.5) == "0.5 is not an integer 0 to 1000");
-  CHECK(axis("base_vertices").refusal(std::string("many")) == "many is not an integer 4 to 2147483647 or auto or auto-omega");
+  CHECK(axis("base_vertices").refusal(std::string("many")) ==
+        "many is not an integer 4 to 2147483647 or auto or auto-omega");
   CHECK(axis("base_vertices").refusal(std::string("auto")).empty());
   CHECK(axis("tangential_ratio").refusal(std::int64_t{3}) == "3 is none of 1, 2, 4, 8");
   CHECK(axis("wavelet").refusal(std::string("haar")).find("haar is none of loop") == 0);
