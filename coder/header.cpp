@@ -123,9 +123,7 @@ std::span<const std::uint8_t> control_bytes(Parser& parser, StreamHeader& header
 }  // namespace
 
 int finest_level(const StreamHeader& header, std::int64_t faces) {
-  int level = header.level;
-  while (level > 0 && static_cast<std::int64_t>(header.base.faces.size()) << (2 * level) > faces) --level;
-  return level;
+  return last_level_with(static_cast<std::int64_t>(header.base.faces.size()), faces, header.level);
 }
 
 int importance_level(const StreamHeader& header) { return finest_level(header, kFreeFaces); }

@@ -180,8 +180,10 @@ class Simplifications {
   std::optional<Levels> of_cut_, of_whole_;
 };
 
-/// What is wrong with a map that is not valid.
-std::string faults(const MapCheck& check) {
+/// What is wrong with a map, nothing where it is valid.
+std::optional<std::string> faults_of(const Parameterization& map) {
+  const MapCheck check = check_map(map);
+  if (check.valid()) return std::nullopt;
   std::ostringstream text;
   text << check.flipped_faces << " flipped faces, " << check.wrong_angle_vertices << " vertices with a wrong angle, "
        << check.mismatched_edges << " mismatched edges, " << check.torn_edges << " torn edges, "
@@ -196,20 +198,16 @@ std::optional<SmoothedMap> join_levels(const Levels& first, const ParameterizeOp
                                        Progress& progress) {
   const int whole = first.surface->mesh.vertex_count();
   int coarsest = first.coarsest;
-  std::string why;
-  const auto joined = [&](const std::optional<SmoothedMap>& map) {
+  const auto why_not = [&](const std::optional<SmoothedMap>& map) -> std::optional<std::string> {
     const auto step = progress.step("check map");
-    why = "a vertex has no place";
-    if (!map || coarsest >= whole) return map.has_value();
-    const MapCheck check = check_map(map->atlas.finish({}));
-    why = faults(check);
-    return check.valid();
+    if (!map) return "a vertex has no place";
+    return coarsest >= whole ? std::nullopt : faults_of(map->atlas.finish({}));
   };
   std::optional<SmoothedMap> map = make(first.simplified);
-  while (!joined(map)) {
+  while (const auto why = why_not(map)) {
     if (coarsest >= whole) return std::nullopt;
     coarsest = std::min(whole, kLargerLevel * coarsest);
-    progress.note("the levels of the map could not be joined (" + why + "); the last one starts with " +
+    progress.note("the levels of the map could not be joined (" + *why + "); the last one starts with " +
                   std::to_string(coarsest) + " vertices instead");
     map = make(simplify(first.surface, options, coarsest, progress));
   }
@@ -304,8 +302,7 @@ Atlas baseline(Atlas atlas, Method method, const ParameterizeOptions& options, P
 }
 
 void require_valid(const Parameterization& map) {
-  const MapCheck check = check_map(map);
-  if (!check.valid()) throw Error(Cause::InvalidMap, "the map is not valid: " + faults(check));
+  if (const auto faults = faults_of(map)) throw Error(Cause::InvalidMap, "the map is not valid: " + *faults);
 }
 
 /// Makes the map on the surface whole again, and tells of how it began.

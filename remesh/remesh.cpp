@@ -235,15 +235,13 @@ class Remesher {
   std::vector<int> gaps_;
 };
 
-/// Fitted to a sampled remesh of at least one level more, whose vertices are as many as the input's faces.
-/// The surface that a fit goes by: sampled on a level that is finer than `level` and than the input.
+/// The surface that a fit goes by: sampled on a level that is finer than `level`, and than the input by twice as many
+/// faces at least, where there is such a level that can be numbered.
 SemiregularMesh fit_target(const Parameterization& map, int level, Progress& progress) {
-  int finer = level + 1;
-  const auto faces = [&](int at) { return static_cast<long long>(map.base.face_count()) << (2 * at); };
-  while (faces(finer) < 2 * static_cast<long long>(input_face_count(map))) ++finer;
-  while (finer > level && (finer > kMaxSubdivisionLevel || faces(finer) > INT_MAX / 3)) --finer;
+  const int faces = map.base.face_count(),
+            finer = std::max(level + 1, first_level_with(faces, 2.0 * input_face_count(map)));
   RemeshOptions sampled;
-  sampled.level = finer;
+  sampled.level = std::max(level, last_level_with(faces, INT_MAX / 3, std::min(finer, kMaxSubdivisionLevel)));
   sampled.positions = Positions::Sampled;
   return remesh(map, sampled, progress);
 }

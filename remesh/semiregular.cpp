@@ -79,6 +79,12 @@ int first_level_with(int base_faces, double faces) {
   return level;
 }
 
+int last_level_with(std::int64_t base_faces, std::int64_t faces, int most) {
+  int level = 0;
+  while (level < most && base_faces << (2 * (level + 1)) <= faces) ++level;
+  return level;
+}
+
 SubdivisionLevel base_level(int base_vertices, const std::vector<Triangle>& base_faces, const Creases& creases,
                             const std::vector<int>& corners) {
   SubdivisionLevel level;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -83,6 +84,10 @@ inline constexpr int kMaxSubdivisionLevel = 10;
 
 /// The first subdivision level of so many base faces that has at least as many faces as wanted, or the deepest one.
 int first_level_with(int base_faces, double faces);
+
+/// The last subdivision level, at most `most`, of so many base faces with no more faces than wanted; 0 where the base
+/// itself has more.
+int last_level_with(std::int64_t base_faces, std::int64_t faces, int most);
 
 /// The base level. Throws Error: IndexOutOfRange, DegenerateFace, NonManifoldEdge, InconsistentOrientation, each with
 /// the face; Malformed where `creases` are not ascending pairs of edges inside, with the edge, or `corners` not

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fnmatch.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include <sstream>
 
 #include "experiments/cells/models.h"
+#include "experiments/cells/recipe_models.h"
 #include "experiments/cells/suggest.h"
 #include "experiments/cells/value_range.h"
 #include "mesh/read_file.h"
@@ -168,89 +168,42 @@ std::vector<const toml::table*> tables(const toml::table& file, const char* key)
   return tables;
 }
 
-// One entry of `models`: a pattern, or a table that holds it as `path` beside keys for its surfaces alone.
-struct ModelEntry {
-  std::string pattern;
-  const toml::table* own;
-  long long line;
+// The entries of `models`, and of each the table of its keys, null for none.
+struct ModelList {
+  std::vector<ModelEntry> entries;
+  std::vector<const toml::table*> own;
+
+  void add(const toml::node& node);
 };
 
-ModelEntry model_entry(const toml::node& node) {
-  const toml::table* own = node.as_table();
-  if (own) require_known_keys(*own, {"path"});
-  const toml::node* pattern = own ? own->get("path") : &node;
+// A pattern, or a table that holds it as `path` beside keys for its surfaces alone.
+void ModelList::add(const toml::node& node) {
+  const toml::table* table = node.as_table();
+  if (table) require_known_keys(*table, {"path"});
+  const toml::node* pattern = table ? table->get("path") : &node;
   if (!pattern || !pattern->is_string())
     refuse("a model is no pattern of files, no shape:NAME and no table with one as path", line_of(node));
-  return {pattern->ref<std::string>(), own, line_of(*pattern)};
+  entries.push_back({pattern->ref<std::string>(), table != nullptr, line_of(*pattern)});
+  own.push_back(table);
 }
 
-std::vector<ModelEntry> model_entries(const toml::table* block, const toml::table& file) {
-  std::vector<ModelEntry> entries;
+ModelList model_entries(const toml::table* block, const toml::table& file) {
+  ModelList models;
   const toml::node* node = Layers{nullptr, block, file}.get("models");
-  if (!node) return entries;
+  if (!node) return models;
   const toml::array* list = node->as_array();
   if (!list || list->empty()) refuse("models is no list of patterns: the sweep would have no cell", line_of(*node));
   const bool above = !block || !block->get("models");
   for (const toml::node& element : *list) {
-    entries.push_back(model_entry(element));
-    if (!block || !above || !entries.back().own) continue;
-    for (const auto& [key, value] : *entries.back().own)
+    models.add(element);
+    if (!block || !above || !models.own.back()) continue;
+    for (const auto& [key, value] : *models.own.back())
       if (const toml::node* both = block->get(key.str()))
         refuse(fmt::format("{} is set here and for {} above (line {}): give the block models of its own",
-                           std::string(key.str()), entries.back().pattern, line_of(value)),
+                           std::string(key.str()), models.entries.back().pattern, line_of(value)),
                line_of(*both));
   }
-  return entries;
-}
-
-// A surface and the keys that are its alone, null for none.
-struct ModelSource {
-  std::string source;
-  const toml::table* own;
-};
-
-// A surface that is named twice is one, with the keys of the entry that has some.
-void add_surface(std::vector<ModelSource>& surfaces, ModelSource surface, long long line) {
-  const auto same = std::find_if(surfaces.begin(), surfaces.end(), [&](const ModelSource& other) {
-    return surface_place(other.source) == surface_place(surface.source);
-  });
-  if (same == surfaces.end()) {
-    surfaces.push_back(std::move(surface));
-  } else if (surface.own) {
-    if (same->own && same->own != surface.own)
-      refuse(surface.source + " has keys twice; a key takes a list of values", line);
-    same->own = surface.own;
-  }
-}
-
-std::vector<ModelSource> found_surfaces(const std::vector<ModelEntry>& entries) {
-  std::vector<ModelSource> surfaces;
-  for (const ModelEntry& entry : entries) try {
-      for (std::string& source : matching_models(entry.pattern))
-        add_surface(surfaces, {std::move(source), entry.own}, entry.line);
-    } catch (const Error& error) {
-      const bool unfound = error.cause() == Cause::CannotOpen;
-      refuse(std::string(error.what()) + (unfound ? "; --models takes other surfaces" : ""), entry.line);
-    }
-  return surfaces;
-}
-
-std::string stem(const std::string& path) { return std::filesystem::path(path).stem().string(); }
-
-// The surfaces given instead; one that is named as one of the recipe's keeps that one's keys.
-std::vector<ModelSource> replacing_surfaces(const std::vector<std::string>& instead,
-                                            const std::vector<ModelEntry>& entries) {
-  std::vector<ModelSource> surfaces;
-  for (const std::string& pattern : instead)
-    for (const std::string& source : matching_models(pattern)) {
-      const auto entry = std::find_if(entries.begin(), entries.end(), [&](const ModelEntry& e) {
-        return e.own && ::fnmatch(stem(e.pattern).c_str(), stem(source).c_str(), 0) == 0;
-      });
-      // The same surface has the same entry, however often it is given.
-      const bool known = entry != entries.end();
-      add_surface(surfaces, {source, known ? entry->own : nullptr}, known ? entry->line : 0);
-    }
-  return surfaces;
+  return models;
 }
 
 // Cells with what the map's options are where no other key sets them.
@@ -351,17 +304,17 @@ toml::table parse(const std::string& path) {
 // methods of an [[external]] table, none for those that the keys name.
 void add_block(Recipe& recipe, const toml::table* block, const toml::table& file, long long line,
                const RecipeOverrides& overrides, const std::vector<CellOptions>& start = {}) {
-  const std::vector<ModelEntry> entries = model_entries(block, file);
+  const ModelList models = model_entries(block, file);
   const auto& instead = overrides.models;
-  if (entries.empty() && instead.empty())
+  if (models.entries.empty() && instead.empty())
     refuse(R"(there are no models: models = ["data/*.ply", "shape:torus"])", line);
-  const auto surfaces = instead.empty() ? found_surfaces(entries) : replacing_surfaces(instead, entries);
-  const toml::table* own = nullptr;
-  for (const ModelSource& surface : surfaces) {
-    const Layers layers{surface.own, block, file, overrides.replicates};
-    if (&surface == &surfaces.front() || surface.own != own)
+  const auto surfaces = instead.empty() ? surfaces_of(models.entries) : replacing_surfaces(instead, models.entries);
+  std::optional<std::size_t> keys;
+  for (const KeyedSurface& surface : surfaces) {
+    const Layers layers{surface.keys ? models.own[*surface.keys] : nullptr, block, file, overrides.replicates};
+    if (&surface == &surfaces.front() || surface.keys != keys)
       recipe.blocks.push_back({{}, combinations(layers, start.empty() ? presets(layers) : start, line)});
-    own = surface.own;
+    keys = surface.keys;
     recipe.blocks.back().models.push_back(surface.source);
   }
 }
@@ -391,7 +344,7 @@ void add_externals(Recipe& recipe, const toml::table& file, const std::string& f
 
 Recipe recipe_of(const toml::table& file, const std::string& path, const RecipeOverrides& overrides) {
   Recipe recipe;
-  recipe.name = text(file, "name", stem(path));
+  recipe.name = text(file, "name", std::filesystem::path(path).stem().string());
   recipe.description = text(file, "description", "");
   require_known_keys(file, {"models", "name", "description", "block", "external", "weld"});
   recipe.read.weld = weld(file);

@@ -34,9 +34,8 @@ const MapMeasure& named(const std::vector<MapMeasure>& measures, const std::stri
 
 /// A coarse remesh shows its structure; the finest would be gray.
 Image remesh_image(const SemiregularMesh& mesh, const Camera& camera) {
-  constexpr std::size_t kMostFaces = 12'000;
-  int level = 0;
-  while (level < mesh.level && mesh.base_faces.size() << (2 * (level + 1)) <= kMostFaces) ++level;
+  constexpr int kMostFaces = 12'000;
+  const int level = last_level_with(static_cast<std::int64_t>(mesh.base_faces.size()), kMostFaces, mesh.level);
   const Parameterization map = remesh_as_map(at_level(mesh, level));
   return render(map.surface, camera, with_patch_edges(with_wireframe(plain_paint()), map),
                 {.size = kPanelSize, .smooth = false});

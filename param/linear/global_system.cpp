@@ -1,5 +1,7 @@
 #include "param/linear/global_system.h"
 
+#include <algorithm>
+
 #include "mesh/error.h"
 #include "param/linear/sparse_solver.h"
 
@@ -73,35 +75,46 @@ class System {
 
 }  // namespace
 
-std::vector<Complex> solve_global(const Atlas& atlas, const LinearWeights& weights, const std::vector<char>& solved) {
-  const int count = atlas.surface->mesh.vertex_count();
-  std::vector<int> row(count, -1), vertices;
-  for (int v = 0; v < count; ++v) {
-    if (!solved[v]) continue;
-    row[v] = static_cast<int>(vertices.size());
-    vertices.push_back(v);
-  }
-  if (vertices.empty()) return atlas.position;
-
+std::vector<Complex> solve_vertices(const Atlas& atlas, const LinearWeights& weights,
+                                    const std::vector<int>& vertices) {
+  if (vertices.empty()) return {};
+  const auto row = [&](int v) {
+    const auto at = std::lower_bound(vertices.begin(), vertices.end(), v);
+    return at != vertices.end() && *at == v ? static_cast<int>(at - vertices.begin()) : -1;
+  };
+  struct Ends {
+    int start, end;
+  };
   const std::vector<Spring> springs = weights.springs(atlas, faces_around(*atlas.surface, vertices));
   const bool hermitian = weights.symmetric();
-  std::vector<double> sum(count, 0.0);
+  std::vector<Ends> rows;
+  std::vector<double> sum(vertices.size(), 0.0);
   for (const Spring& s : springs) {
-    sum[s.start] += s.at_start;
-    sum[s.end] += s.at_end;
+    rows.push_back({row(s.start), row(s.end)});
+    if (rows.back().start >= 0) sum[rows.back().start] += s.at_start;
+    if (rows.back().end >= 0) sum[rows.back().end] += s.at_end;
   }
   System system(static_cast<int>(vertices.size()), hermitian);
-  for (const Spring& s : springs) {
-    const Transition back = s.to_start.inverse();
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    const Spring& s = springs[i];
+    const auto [start, end] = rows[i];
     // Rows that sum to 1 condition the system better, but would make it no longer Hermitian.
-    const double start = hermitian ? s.at_start : s.at_start / sum[s.start],
-                 end = hermitian ? s.at_end : s.at_end / sum[s.end];
-    if (row[s.start] >= 0) system.add(row[s.start], row[s.end], start, s.to_start, atlas.position[s.end]);
-    if (row[s.end] >= 0) system.add(row[s.end], row[s.start], end, back, atlas.position[s.start]);
+    if (start >= 0)
+      system.add(start, end, hermitian ? s.at_start : s.at_start / sum[start], s.to_start, atlas.position[s.end]);
+    if (end >= 0)
+      system.add(end, start, hermitian ? s.at_end : s.at_end / sum[end], s.to_start.inverse(), atlas.position[s.start]);
   }
   const ComplexVector solution = system.solve();
+  return {solution.data(), solution.data() + solution.size()};
+}
+
+std::vector<Complex> solve_global(const Atlas& atlas, const LinearWeights& weights, const std::vector<char>& solved) {
+  std::vector<int> vertices;
+  for (int v = 0; v < atlas.surface->mesh.vertex_count(); ++v)
+    if (solved[v]) vertices.push_back(v);
+  const std::vector<Complex> solution = solve_vertices(atlas, weights, vertices);
   std::vector<Complex> position = atlas.position;
-  for (int v : vertices) position[v] = solution[row[v]];
+  for (std::size_t i = 0; i < vertices.size(); ++i) position[vertices[i]] = solution[i];
   return position;
 }
 

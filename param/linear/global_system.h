@@ -13,6 +13,10 @@ namespace gsp {
 /// Throws Error(SolverFailed).
 std::vector<Complex> solve_global(const Atlas& atlas, const LinearWeights& weights, const std::vector<char>& solved);
 
+/// The same for `vertices`, ascending, alone: their positions, in that order. Of the size of their number, whatever the
+/// surface has besides.
+std::vector<Complex> solve_vertices(const Atlas& atlas, const LinearWeights& weights, const std::vector<int>& vertices);
+
 /// #V: vertices that are neither isolated, nor a patch corner, nor on a boundary.
 std::vector<char> interior_vertices(const Atlas& atlas);
 

@@ -1,6 +1,7 @@
 #include "param/reinsert/reinsertion_map.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "param/map/lattice_motion.h"
 
@@ -86,22 +87,20 @@ bool ReinsertionMap::knows_chart(int face) const {
 Atlas::FaceFrame ReinsertionMap::frame(int face) const {
   if (knows_chart(face)) return own_frame(face);
   // From the face outward, by the half-edges that lead back.
-  std::vector<std::pair<int, int>> reached{{face, -1}};
-  std::vector<int> seen{face};
+  std::vector<int> reached{face};
+  std::unordered_map<int, int> way_back{{face, -1}};
   for (std::size_t i = 0; i < reached.size(); ++i)
-    for (int h = 3 * reached[i].first; h < 3 * reached[i].first + 3; ++h) {
+    for (int h = 3 * reached[i]; h < 3 * reached[i] + 3; ++h) {
       const int twin = links.twin[h];
-      if (twin < 0 || std::count(seen.begin(), seen.end(), twin / 3) > 0) continue;
-      seen.push_back(twin / 3);
-      reached.emplace_back(twin / 3, twin);
+      if (twin < 0 || !way_back.emplace(twin / 3, twin).second) continue;
+      reached.push_back(twin / 3);
       if (!knows_chart(twin / 3)) continue;
       Atlas::FaceFrame at = own_frame(twin / 3);
       for (int back = twin; back >= 0;) {
         const auto next = frame_across(back, at);
         if (!next) return own_frame(face);
         at = *next;
-        const int there = links.twin[back] / 3;
-        back = std::find_if(reached.begin(), reached.end(), [&](const auto& r) { return r.first == there; })->second;
+        back = way_back.at(links.twin[back] / 3);
       }
       return at;
     }

@@ -49,7 +49,9 @@ TEST_CASE("the faces that are put back are the surface's own, corner by corner")
   const Mesh& made_again = map.atlas.surface->mesh;
   int whole = 0;
   for (int f = 0; f < mesh.face_count(); ++f) whole += made_again.faces[f] == mesh.faces[f];
-  CHECK(whole >= mesh.face_count() - 2 * (made_again.vertex_count() - mesh.vertex_count()));
+  const int added = made_again.vertex_count() - mesh.vertex_count();
+  REQUIRE(added < mesh.face_count() / 20);
+  CHECK(whole >= mesh.face_count() - 2 * added);
 }
 
 TEST_CASE("a vertex goes where it sees the border of its hole, and nowhere else") {

@@ -32,6 +32,19 @@ TEST_CASE("quadrisection keeps the numbering rules at every level") {
   }
 }
 
+TEST_CASE("levels are counted by their faces, from below and from above") {
+  // 20 base faces: 20, 80, 320, 1280, ...
+  CHECK(first_level_with(20, 1.0) == 0);
+  CHECK(first_level_with(20, 320.0) == 2);
+  CHECK(first_level_with(20, 321.0) == 3);
+  CHECK(first_level_with(20, 1e12) == kMaxSubdivisionLevel);
+  CHECK(last_level_with(20, 19, 5) == 0);
+  CHECK(last_level_with(20, 319, 5) == 1);
+  CHECK(last_level_with(20, 320, 5) == 2);
+  CHECK(last_level_with(20, 1'000'000'000, 5) == 5);
+  CHECK(last_level_with(50'000'000, 50'000'000, kMaxSubdivisionLevel) == 0);
+}
+
 TEST_CASE("a base that is not an oriented manifold is refused with its face") {
   CHECK(cause_of([] { base_level(3, {{0, 1, 3}}); }) == Cause::IndexOutOfRange);
   CHECK(cause_of([] { base_level(3, {{0, 1, 1}}); }) == Cause::DegenerateFace);
