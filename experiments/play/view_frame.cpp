@@ -17,10 +17,7 @@ Json triple(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 }  // namespace
 
 int level_within(const SemiregularMesh& mesh, long long most_faces) {
-  int level = 0;
-  while (level < mesh.level && static_cast<long long>(mesh.base_faces.size()) << (2 * (level + 1)) <= most_faces)
-    ++level;
-  return level;
+  return last_level_with(static_cast<std::int64_t>(mesh.base_faces.size()), most_faces, mesh.level);
 }
 
 Json view_frame(const Mesh& seen, const BaseComplex& base, const Eigen::AlignedBox3d& box, int level) {

@@ -1,14 +1,17 @@
 #include "param/atlas/atlas.h"
 
 #include <algorithm>
+#include <cassert>
 #include <optional>
 
 #include "mesh/error.h"
 #include "param/map/convex_clip.h"
+#include "param/map/tolerances.h"
 
 namespace gsp {
 
 void Atlas::change_chart(int vertex, int chart, const Transition& change) {
+  assert(corner[vertex] < 0);
   patch[vertex] = chart;
   position[vertex] = change.apply(position[vertex]);
   const Transition back = change.inverse();
@@ -106,7 +109,7 @@ void close_up(const std::vector<BaseFan>& fans, const Atlas::CornerFace& face, A
     const Complex z2 = candidate.apply(face.position[2]);
     for (int n = 0; n < turns1; ++n) {
       const Transition other = face.first * turn(fan1, face.patch[1], n * fan1.valence()) * face.between;
-      if (std::abs(other.apply(face.position[2]) - z2) > 1e-9) continue;
+      if (std::abs(other.apply(face.position[2]) - z2) > tolerance::kSamePlace) continue;
       const bool upright = chart_area(face.position[0], z1, z2) > 0.0;
       if (closed && !upright) continue;
       frame.to_chart[2] = candidate;
@@ -123,7 +126,7 @@ void take_base_face(const BaseComplex& base, const std::vector<BaseFan>& fans, c
   std::array<Complex, 3> z;
   for (int k = 0; k < 3; ++k) z[k] = frame.to_chart[k].apply(face.position[k]);
   for (int k = 0; k < 3; ++k)
-    if (std::abs(std::abs(z[(k + 1) % 3] - z[k]) - 1.0) > 1e-9) return;
+    if (std::abs(std::abs(z[(k + 1) % 3] - z[k]) - 1.0) > tolerance::kSamePlace) return;
   const int found = find_base_face(base, fans, face.corner);
   if (found < 0) return;
   frame.chart = found;

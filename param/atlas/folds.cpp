@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "param/map/tolerances.h"
+
 namespace gsp {
 
 namespace {
-constexpr double kSmallestArea = 1e-15;  // chart units
-
 double angle_at(const std::array<Complex, 3>& z, int k) {
   return std::abs(std::arg((z[(k + 2) % 3] - z[k]) * std::conj(z[(k + 1) % 3] - z[k])));
 }
@@ -23,7 +23,7 @@ bool is_right_angle_sum(const Atlas& atlas, int vertex, double sum) {
 }
 }  // namespace
 
-bool upright(Complex a, Complex b, Complex c) { return chart_area(a, b, c) > kSmallestArea; }
+bool upright(Complex a, Complex b, Complex c) { return chart_area(a, b, c) > tolerance::kUprightArea; }
 
 Folds find_folds(const Atlas& atlas) {
   const Surface& surface = *atlas.surface;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 #include <vector>
 
@@ -103,6 +104,7 @@ struct TriangleLinks {
 
   /// Draws from(h) onto to(h): the two faces at h die.
   void collapse(int h) {
+    assert(twin[h] >= 0);
     const int m = from(h), n = to(h);
     std::vector<int> around;
     for_each_outgoing(m, false, [&](int out) { around.push_back(out); });

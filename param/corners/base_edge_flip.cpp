@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "param/map/tolerances.h"
+
 namespace gsp {
 
 namespace {
 
 constexpr int kFewestPatches = 3;  // around an interior base vertex
-
-constexpr double kOneBaseEdge = 1e-9;  // squared length above 1
 
 /// The face to the left of the base edge from p to q, else that to its right, -1 where they are not joined.
 int face_beside(const BaseComplex& base, const std::vector<BaseFan>& fans, int p, int q) {
@@ -27,7 +27,7 @@ std::optional<Way> find_way(const Atlas& atlas, int edge) {
   }
   if (atlas.corner[way.start] >= 0) {
     const Complex end = atlas.towards(edge, way.forward).apply(atlas.position[way.end]);
-    const bool along = std::norm(end - atlas.position[way.start]) < 1.0 + kOneBaseEdge &&
+    const bool along = std::norm(end - atlas.position[way.start]) < 1.0 + tolerance::kSamePlace &&
                        face_beside(atlas.base, atlas.fans, atlas.corner[way.start], atlas.corner[way.end]) >= 0;
     return along ? std::optional(way) : std::nullopt;
   }

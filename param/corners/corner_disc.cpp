@@ -5,6 +5,7 @@
 
 #include "param/atlas/folds.h"
 #include "param/linear/sparse_solver.h"
+#include "param/map/tolerances.h"
 
 namespace gsp {
 
@@ -108,7 +109,7 @@ void CornerDisc::straighten_border() {
     for (int side : {0, last}) {
       const double angle = side == 0 ? 0.0 : fan_.valence() * kSectorAngle;
       const Complex turned = fan_.develop(side).apply(atlas_.position[v.vertex]) * std::polar(1.0, -angle);
-      if (s != side || std::abs(turned.imag()) > 1e-9 || turned.real() <= 0.0) continue;
+      if (s != side || std::abs(turned.imag()) > tolerance::kSamePlace || turned.real() <= 0.0) continue;
       v.develop = fan_.develop(side);
       v.angle = angle;
       v.disc = to_disc(turned.real(), angle);

@@ -1,9 +1,11 @@
 #include "param/corners/corner_move.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "param/atlas/folds.h"
+#include "param/map/tolerances.h"
 
 namespace gsp {
 
@@ -89,10 +91,11 @@ bool closed(const CornerDisc& disc, const CornerMove& move) {
         const Transition direct = back.inverse();
         if (!is_corner(a) && !is_corner(b) && !(round == direct)) return false;
         if (!is_corner(a) && is_corner(b) && stays(b) &&
-            std::abs(round.apply(atlas.position[b]) - direct.apply(atlas.position[b])) > 1e-6)
+            std::abs(round.apply(atlas.position[b]) - direct.apply(atlas.position[b])) > tolerance::kSameWay)
           return false;
         if (is_corner(a) && !is_corner(b) && stays(a) &&
-            std::abs((direct * beside.inverse()).apply(atlas.position[a]) - forth.apply(atlas.position[a])) > 1e-6)
+            std::abs((direct * beside.inverse()).apply(atlas.position[a]) - forth.apply(atlas.position[a])) >
+                tolerance::kSameWay)
           return false;
       }
       h = surface.halfedges.rotate_ccw(h);
@@ -112,6 +115,7 @@ bool make_move(const CornerDisc& disc, int center, CornerMove& move) {
 }
 
 void exchange(Atlas& atlas, CornerMove& move) {
+  assert(move.base_vertex >= 0 && move.new_corner >= 0);
   int& corner = atlas.base.vertices[move.base_vertex];
   atlas.corner[corner] = -1;
   std::swap(corner, move.new_corner);

@@ -1,6 +1,7 @@
 #include "param/energy/distortion_energy.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -115,6 +116,8 @@ std::vector<ReferenceShape> reference_shapes(const Atlas& atlas, const std::vect
 DistortionEnergy::DistortionEnergy(const Atlas& atlas, const std::vector<int>& vertices, const std::vector<int>& faces,
                                    const std::vector<ReferenceShape>& shapes, double area_weight)
     : vertices_(vertices), area_weight_(area_weight) {
+  assert(shapes.size() == faces.size() && area_weight > 0.0);
+  assert(std::none_of(vertices.begin(), vertices.end(), [&](int v) { return atlas.corner[v] >= 0; }));
   std::vector<std::pair<int, int>> sorted;
   for (std::size_t i = 0; i < vertices_.size(); ++i) sorted.emplace_back(vertices_[i], static_cast<int>(i));
   std::sort(sorted.begin(), sorted.end());

@@ -1,6 +1,7 @@
 #include "param/energy/lower_peaks.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <Eigen/Dense>
@@ -105,6 +106,7 @@ class Peaks {
 }  // namespace
 
 void lower_peaks(const DistortionEnergy& energy, std::vector<double>& x) {
+  assert(static_cast<int>(x.size()) == 2 * energy.variable_count() && energy.upright(x));
   Peaks peaks(energy, x);
   for (int i = 0; i < kSweeps; ++i)
     if (peaks.sweep() < kLittle) return;

@@ -1,6 +1,7 @@
 #include "param/energy/newton_descent.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -26,6 +27,7 @@ NewtonDescent::NewtonDescent(const DistortionEnergy& energy, std::vector<double>
       gradient_(x.size()),
       trial_(x.size()),
       trial_gradient_(x.size()) {
+  assert(static_cast<int>(x.size()) == 2 * energy.variable_count() && energy.upright(x));
   find_pattern();
   value_ = energy_.evaluate(x_.data(), gradient_.data(), 0.0);
 }

@@ -1,6 +1,7 @@
 #include "param/linear/global_system.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "mesh/error.h"
 #include "param/linear/sparse_solver.h"
@@ -77,6 +78,8 @@ class System {
 
 std::vector<Complex> solve_vertices(const Atlas& atlas, const LinearWeights& weights,
                                     const std::vector<int>& vertices) {
+  assert(std::is_sorted(vertices.begin(), vertices.end()));
+  assert(std::none_of(vertices.begin(), vertices.end(), [&](int v) { return atlas.corner[v] >= 0; }));
   if (vertices.empty()) return {};
   const auto row = [&](int v) {
     const auto at = std::lower_bound(vertices.begin(), vertices.end(), v);

@@ -1,7 +1,9 @@
 #include "param/linear/intrinsic_triangulation.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <functional>
 
 namespace gsp {
 
@@ -14,6 +16,7 @@ constexpr int kMostFlips = 100;        // per edge, where rounding would go roun
 }  // namespace
 
 IntrinsicTriangulation::IntrinsicTriangulation(const Surface& surface, const std::vector<int>& faces) {
+  assert(std::adjacent_find(faces.begin(), faces.end(), std::greater_equal<>()) == faces.end());
   const auto& p = surface.mesh.positions;
   double total = 0.0;
   for (int f : faces)

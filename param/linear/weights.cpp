@@ -1,7 +1,9 @@
 #include "param/linear/weights.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <functional>
 
 #include <Eigen/Geometry>
 
@@ -55,6 +57,7 @@ LinearWeights::LinearWeights(const Surface& surface, Weights kind) : surface_(su
 }
 
 std::vector<Spring> LinearWeights::springs(const Atlas& atlas, const std::vector<int>& faces) const {
+  assert(std::adjacent_find(faces.begin(), faces.end(), std::greater_equal<>()) == faces.end());
   if (kind_ == Weights::Cotangent) return delaunay_springs(atlas, faces);
   std::vector<Spring> springs;
   springs.reserve(2 * faces.size());

@@ -1,6 +1,7 @@
 #include "param/map/base_complex.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "mesh/edge.h"
 #include "mesh/halfedges.h"
@@ -15,6 +16,7 @@ void BaseComplex::connect() {
 }
 
 Transition BaseComplex::across(int h) const {
+  assert(twins[h] >= 0);
   // The edge runs from corner k to k+1 here and from corner m to m+1 there, the other way round:
   // corner k must land on corner m+1 and corner k+1 on corner m.
   static constexpr int direction[3] = {0, 2, 4};  // corner k to k+1 is ω^(2k)

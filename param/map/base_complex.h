@@ -25,7 +25,16 @@ struct BaseComplex {
   void connect();
 
   /// The change of chart across half-edge h of face h / 3, from that face's chart into the chart of the neighbour.
-  /// h must have a twin.
+  /// h must have a twin. Both charts have their corners at 0, 1 and ω; the motion ω^k z + t lays one beside the other:
+  ///
+  ///      the face's chart, h = 3f + 1          the neighbour's, twin = 3g + 0
+  ///
+  ///             2 (ω)                                 2 (ω)
+  ///             / \                                   / \
+  ///            / f \ h     ---- across(h) --->       / g \          corner 1 of f -> corner 1 of g
+  ///           /     \                               /     \         corner 2 of f -> corner 0 of g
+  ///       0 (0) --- 1 (1)                       0 (0) -h- 1 (1)     the rest of f -> below the edge
+  ///
   Transition across(int h) const;
 
   /// #3P, whether a half-edge lies on a crease. O(P log C).

@@ -3,12 +3,13 @@
 #include <algorithm>
 
 #include "mesh/halfedges.h"
+#include "param/map/tolerances.h"
 
 namespace gsp {
 
 namespace {
 
-constexpr double kOnEdge = 1e-10;  // outside of a chart's triangle by less is rounding of a point on its edge
+using tolerance::kOnEdge;
 
 }  // namespace
 

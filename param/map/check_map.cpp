@@ -5,12 +5,13 @@
 #include "mesh/halfedges.h"
 #include "param/map/development.h"
 #include "param/map/parameterization.h"
+#include "param/map/tolerances.h"
 
 namespace gsp {
 
 namespace {
 
-constexpr double kTolerance = 1e-9;
+constexpr double kTolerance = tolerance::kSamePlace;
 /// Angle sums of a map with exact transitions are multiples of π/3 apart, so this only has to be wider than the
 /// rounding of very short chart edges. Vertices that leave a boundary line by less show in the area sum.
 constexpr double kAngleTolerance = 1e-3;

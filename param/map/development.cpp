@@ -7,16 +7,13 @@
 #include "mesh/parallel.h"
 #include "param/map/base_fan.h"
 #include "param/map/lattice_motion.h"
+#include "param/map/tolerances.h"
 
 namespace gsp {
 
 namespace {
 
-/// Reaching less far than this over an edge, or through a gap narrower than this, is rounding (chart units).
-constexpr double kReach = 1e-12;
-/// A vertex's position and the face's corner are the same point of the same chart up to this.
-constexpr double kSamePlace = 1e-9;
-
+using tolerance::kReach, tolerance::kSamePlace;
 using Weights = std::array<double, 3>;
 
 /// The piece of the base face beyond an edge of the one that `from` lies in.

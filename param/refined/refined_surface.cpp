@@ -1,6 +1,7 @@
 #include "param/refined/refined_surface.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace gsp {
 
@@ -65,6 +66,7 @@ int RefinedSurface::add_vertex(const Point& at) {
 }
 
 int RefinedSurface::insert(int face, const std::array<double, 3>& weights) {
+  assert(alive(face));
   const Triangle t = links_.faces[face];
   std::array<double, 3> place{};
   for (int k = 0; k < 3; ++k) {
@@ -78,6 +80,7 @@ int RefinedSurface::insert(int face, const std::array<double, 3>& weights) {
 }
 
 int RefinedSurface::split(int h, double share) {
+  assert(links_.twin[h] >= 0 && share > 0.0 && share < 1.0);
   const int face = origin_[h / 3], other = origin_[links_.twin[h] / 3];
   const std::array<double, 3> wa = weights_in(from(h), face), wb = weights_in(to(h), face);
   std::array<double, 3> w;
@@ -143,7 +146,10 @@ bool RefinedSurface::can_collapse(int h) const {
   return possible && links_.ends_apart(h, boundary(n));
 }
 
-void RefinedSurface::collapse(int h) { links_.collapse(h); }
+void RefinedSurface::collapse(int h) {
+  assert(can_collapse(h));
+  links_.collapse(h);
+}
 
 RefinedSurface::Compact RefinedSurface::compact() const {
   Compact result;

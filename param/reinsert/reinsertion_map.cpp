@@ -1,9 +1,11 @@
 #include "param/reinsert/reinsertion_map.h"
 
 #include <algorithm>
+#include <cassert>
 #include <unordered_map>
 
 #include "param/map/lattice_motion.h"
+#include "param/map/tolerances.h"
 
 namespace gsp {
 
@@ -19,6 +21,7 @@ double ReinsertionMap::Support::weight_of(int corner) const {
 
 ReinsertionMap::ReinsertionMap(const RemovalRecord& removed, const EditableAtlas& map)
     : decimation(removed), base(map.atlas.base), fans(map.atlas.fans) {
+  assert(map.refined.original().mesh.vertex_count() == decimation.coarse.surface->mesh.vertex_count());
   const RefinedSurface& refined = map.refined;
   const CoarseSurface& coarse = decimation.coarse;
   const int first_added = coarse.surface->mesh.vertex_count(), own = own_vertices();
@@ -79,7 +82,7 @@ bool ReinsertionMap::knows_chart(int face) const {
   if (c[0] < 0 || c[1] < 0 || c[2] < 0) return true;
   for (int k = 0; k < 3; ++k) {
     const Complex there = loose.transition[3 * face + k].apply(loose.position[t[(k + 1) % 3]]);
-    if (std::abs(std::abs(there - loose.position[t[k]]) - 1.0) > kBaseEdge) return false;
+    if (std::abs(std::abs(there - loose.position[t[k]]) - 1.0) > tolerance::kSamePlace) return false;
   }
   return find_base_face(base, fans, c) >= 0;
 }
@@ -186,6 +189,7 @@ void ReinsertionMap::connect(int face, const std::array<Transition, 3>& into, in
 }
 
 bool ReinsertionMap::split(int h, double share, int middle) {
+  assert(share > 0.0 && share < 1.0);
   const int twin = links.twin[h];
   std::vector<std::pair<int, Atlas::FaceFrame>> sides{{h, frame(h / 3)}};
   const Atlas::FaceFrame here = sides.front().second;

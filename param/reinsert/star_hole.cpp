@@ -1,6 +1,7 @@
 #include "param/reinsert/star_hole.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "param/removal/flatten.h"
 
@@ -11,6 +12,7 @@ constexpr int kLargestFan = 96;  // faces around a vertex: three times those of 
 }
 
 bool StarHole::open(int removal) {
+  assert(removal >= 0 && removal < map.decimation.size());
   map.decimation.get(removal, star, filling);
   if (!find_border()) return false;
   fill_region();

@@ -8,6 +8,18 @@ namespace gsp {
 
 /// The hole that a removed vertex left, in a map which has just those vertices that were left then: the pieces in the
 /// triangles that fill it, and its border. Vectors are kept from hole to hole.
+///
+///        r2 ----- x ----- r1        r0 .. r3: the star's ring; x, y: vertices added to the map since
+///        | \      |      / |
+///        |   \    |    /   |        border: r0 -> r1, r1 -> x, x -> r2, r2 -> r3, r3 -> r0
+///        |     \  |  /     |        side.halfedge: along it, of a face in the hole
+///        |        y        |        side.slot: that of the star's triangle behind it, the same for r1 -> x and x -> r2
+///        |     /     \     |        side_of_ring: 0, 1, 3, 4
+///        |  /           \  |        region: the five faces around y, among which the centre is to come
+///        r3 ------------- r0
+///
+/// Around a boundary vertex the outline is a chain; its last side, from the ring's last vertex to its first, has no
+/// half-edge until the centre lies on it.
 class StarHole {
  public:
   /// One side of the hole, between two vertices that follow on its border.

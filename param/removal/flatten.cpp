@@ -1,6 +1,7 @@
 #include "param/removal/flatten.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -19,6 +20,7 @@ constexpr double kLargestAngle = 0.92 * std::numbers::pi;  // of one triangle in
 void flatten_star(const std::vector<Vec3>& positions, const Star& star, std::vector<Complex>& ring) {
   const int n = star.size();
   const int wedges = static_cast<int>(star.triangles.size());
+  assert(n >= 2 && wedges == n - star.boundary);
   const Vec3 center = positions[star.center];
   // Until it is placed, a ring vertex stands for its radius and the angle from it to the next.
   ring.resize(n);

@@ -1,6 +1,7 @@
 #include "param/removal/triangle_complex.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace gsp {
 
@@ -110,6 +111,7 @@ bool TriangleComplex::edge_exists(int a, int b) const {
 }
 
 void TriangleComplex::replace(const Star& star, const std::vector<RingTriangle>& triangles, std::vector<int>& slots) {
+  assert(static_cast<int>(triangles.size()) == star.size() - 2);
   const int n = star.size();
   std::vector<int> outer(star.triangles.size());
   for (std::size_t k = 0; k < outer.size(); ++k) {

@@ -10,6 +10,18 @@ namespace gsp {
 
 /// The faces around one vertex of the complex, counter-clockwise. Triangle k spans the centre, ring[k] and ring[k+1];
 /// around an interior vertex the ring is a cycle, around a boundary vertex a chain with one triangle fewer.
+///
+///        ring[2] ------ ring[1]             ring[2] ------ ring[1]
+///           / \   t1   / \                     / \   t1   / \
+///          /   \      /   \                   /   \      /   \
+///         / t2  \    /  t0 \                 / t2  \    /  t0 \
+///     ring[3] -- center -- ring[0]       ring[3] -- center -- ring[0]
+///         \ t3  /    \  t5 /             ===== boundary: four of the ring, three triangles
+///          \   /  t4  \   /
+///        ring[4] ------ ring[5]          inside: six and six
+///
+/// Triangle t_k has the slot triangles[k] of the complex. A removal frees these slots; the n - 2 triangles that fill
+/// the hole take the first of them.
 struct Star {
   int center = -1;
   bool boundary = false;

@@ -4,13 +4,16 @@
 
 #include "mesh/shapes.h"
 #include "param/atlas/best_map.h"
+#include "param/atlas/folds.h"
 #include "param/map/convex_clip.h"
 #include "param/map/lattice_motion.h"
+#include "param/map/tolerances.h"
 #include "param/removal/flatten.h"
 #include "param/removal/location.h"
 #include "param/removal/triangle_complex.h"
 #include "param/shortening.h"
 #include "param/simplify/automatic_stop.h"
+#include "tests/support/exact_maps.h"
 
 using namespace gsp;
 
@@ -194,4 +197,19 @@ TEST_CASE("a rod of long faces is pressed together and drawn out again, a sphere
   shortening.draw_out(image);
   for (std::size_t v = 0; v < rod.positions.size(); ++v)
     CHECK((image.positions[v] - rod.positions[v]).norm() < 1e-12 * length(rod));
+}
+
+TEST_CASE("a vertex off its place by less than the tolerance is where it was, by more it is misplaced") {
+  const Parameterization exact = exact_maps::quadrisected(shapes::icosahedron(), 1);
+  for (double share : {0.5, 2.0}) {
+    Parameterization map = exact;
+    map.position[0] += share * tolerance::kSamePlace;  // a base vertex, whose corner of the chart is its place
+    CHECK(check_map(map).misplaced_vertices == (share > 1.0));
+  }
+  // A point outside of the chart by rounding is on its edge.
+  CHECK(inside_chart({0.5, -0.5 * tolerance::kOnEdge}));
+  CHECK_FALSE(inside_chart({0.5, -2.0 * tolerance::kOnEdge}));
+  const double height = 2.0 * tolerance::kUprightArea;
+  CHECK(upright({0, 0}, {1, 0}, {0, 1.01 * height}));
+  CHECK_FALSE(upright({0, 0}, {1, 0}, {0, 0.99 * height}));
 }
