@@ -30,10 +30,10 @@ struct BaseComplex {
   ///      the face's chart, h = 3f + 1          the neighbour's, twin = 3g + 0
   ///
   ///             2 (ω)                                 2 (ω)
-  ///             / \                                   / \
-  ///            / f \ h     ---- across(h) --->       / g \          corner 1 of f -> corner 1 of g
-  ///           /     \                               /     \         corner 2 of f -> corner 0 of g
-  ///       0 (0) --- 1 (1)                       0 (0) -h- 1 (1)     the rest of f -> below the edge
+  ///             / \                                   / \          corner 1 of f -> corner 1 of g
+  ///            / f \ h     ---- across(h) --->       / g \         corner 2 of f -> corner 0 of g
+  ///           /     \                               /     \        the rest of f -> below the edge
+  ///       0 (0) --- 1 (1)                       0 (0) -h- 1 (1)
   ///
   Transition across(int h) const;
 

@@ -12,13 +12,13 @@ namespace gsp {
 /// around an interior vertex the ring is a cycle, around a boundary vertex a chain with one triangle fewer.
 ///
 ///        ring[2] ------ ring[1]             ring[2] ------ ring[1]
-///           / \   t1   / \                     / \   t1   / \
-///          /   \      /   \                   /   \      /   \
-///         / t2  \    /  t0 \                 / t2  \    /  t0 \
-///     ring[3] -- center -- ring[0]       ring[3] -- center -- ring[0]
-///         \ t3  /    \  t5 /             ===== boundary: four of the ring, three triangles
+///           / \   t1   / \                     / \   t1   / \         left: inside, six of the
+///          /   \      /   \                   /   \      /   \        ring and six triangles
+///         / t2  \    /  t0 \                 / t2  \    /  t0 \       right: on a boundary, four
+///     ring[3] -- center -- ring[0]       ring[3] -- center -- ring[0]     and three
+///         \ t3  /    \  t5 /
 ///          \   /  t4  \   /
-///        ring[4] ------ ring[5]          inside: six and six
+///        ring[4] ------ ring[5]
 ///
 /// Triangle t_k has the slot triangles[k] of the complex. A removal frees these slots; the n - 2 triangles that fill
 /// the hole take the first of them.
