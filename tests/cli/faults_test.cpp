@@ -195,7 +195,7 @@ TEST_CASE("commands that solve nothing do with little address space") {
   const TemporaryFolder folder;
   const std::string path = folder.file("torus.off");
   write_mesh(path, shapes::torus(16, 8));
-  for (const std::string arguments :
+  for (const std::string& arguments :
        {std::string("--version"), std::string("--help"), "info " + path, std::string("parameterize --help"),
         "distance " + path + " " + path + " --samples 1000"}) {
     INFO(arguments);
