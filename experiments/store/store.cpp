@@ -40,10 +40,6 @@ CREATE TABLE IF NOT EXISTS step(stage TEXT, position INTEGER, name TEXT NOT NULL
   PRIMARY KEY(stage, position)) WITHOUT ROWID;
 )";
 
-std::string place(const std::string& folder, const std::string& path) {
-  return path.empty() ? path : folder + '/' + path;
-}
-
 std::string key_of(const PlannedCell& cell, StageKind kind) {
   const auto key = cell.keys.find(kind);
   return key == cell.keys.end() ? std::string() : key->second;
@@ -258,7 +254,7 @@ Plan Store::Impl::plan(const std::string& recipe) const {
 
 std::vector<StoredModel> Store::models(const std::string& recipe) const {
   std::vector<StoredModel> models = plan(recipe).models;
-  for (StoredModel& model : models) model.path = place(folder_, model.path);
+  for (StoredModel& model : models) model.path = in_store(folder_, model.path);
   return models;
 }
 

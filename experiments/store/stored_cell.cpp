@@ -64,6 +64,10 @@ std::vector<CurvePoint> StoredCell::points() const {
   return rows;
 }
 
+std::string in_store(const std::string& folder, const std::string& path) {
+  return path.empty() ? path : folder + '/' + path;
+}
+
 std::vector<StoredCell> stored_cells(const Plan& plan, const std::map<std::string, StageResult>& results,
                                      const std::string& folder) {
   std::map<std::string, const StoredModel*> models;
@@ -83,7 +87,7 @@ std::vector<StoredCell> stored_cells(const Plan& plan, const std::map<std::strin
       const auto found = results.find(key);
       if (found == results.end()) continue;
       StageResult result = found->second;
-      for (auto& [role, path] : result.artefacts) path = place(folder, path);
+      for (auto& [role, path] : result.artefacts) path = in_store(folder, path);
       if (cell.cause.empty() && result.failed()) {
         cell.cause = result.cause;
         cell.failure = result.failure;

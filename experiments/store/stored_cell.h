@@ -102,6 +102,9 @@ struct StoredCell {
   std::vector<CurvePoint> points() const;
 };
 
+/// A path of a store with its folder put before; an empty one stays.
+std::string in_store(const std::string& folder, const std::string& path);
+
 /// The plan's cells with those of the results that are theirs; paths get the folder put before.
 std::vector<StoredCell> stored_cells(const Plan& plan, const std::map<std::string, StageResult>& results,
                                      const std::string& folder);
