@@ -44,7 +44,7 @@ TEST_CASE("the whole stream holds the mesh to its precision") {
   }
 }
 
-TEST_CASE("by default the whole stream is within 0.1 dB of what its remesh can show, on a sphere as well") {
+TEST_CASE("by default the whole stream is within 0.1 dB of what its remesh can show, on a sphere as well", "[slow]") {
   // Nothing is smoother than a sphere: no surface is nearer to a mesh whose edges' middles rise as high.
   const auto mean_and_rms = [](const Mesh& mesh) {
     constexpr int kSteps = 6;
@@ -183,7 +183,7 @@ TEST_CASE("every prefix that holds the header decodes, and more bytes are better
   CHECK(cause_of([&] { decode({}, 0); }) == Cause::BadStream);
 }
 
-TEST_CASE("a stream for one size keeps to it and is nearer than the embedded one's prefix") {
+TEST_CASE("a stream for one size keeps to it and is nearer than the embedded one's prefix", "[slow]") {
   for (const SemiregularMesh& mesh : {samples::bumpy_sphere(5), samples::wavy_sheet(4)}) {
     Bytes unused;
     const SurfaceError error(in_coded_order(mesh, encode_connectivity(mesh.base_faces, unused)).mesh());
@@ -206,7 +206,7 @@ TEST_CASE("a stream for one size keeps to it and is nearer than the embedded one
   }
 }
 
-TEST_CASE("more bytes are never much worse, wherever the stream is cut") {
+TEST_CASE("more bytes are never much worse, wherever the stream is cut", "[slow]") {
   const SemiregularMesh mesh = samples::bumpy_sphere(4);
   Bytes unused;
   const SurfaceError error(in_coded_order(mesh, encode_connectivity(mesh.base_faces, unused)).mesh());

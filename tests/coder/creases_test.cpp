@@ -261,7 +261,7 @@ TEST_CASE("with creases analysis converges as fast as without, whichever they ar
       }
 }
 
-TEST_CASE("creases code bodies with sharp edges better by far at the same bytes") {
+TEST_CASE("creases code bodies with sharp edges better by far at the same bytes", "[slow]") {
   struct Body {
     SemiregularMesh mesh;
     double gain;  ///< dB that are asked for

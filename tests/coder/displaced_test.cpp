@@ -222,7 +222,8 @@ TEST_CASE("a decoded displaced mesh codes to the same mesh again") {
   CHECK(errors(once, again, again.size()).second < 1e-4);
 }
 
-TEST_CASE("a displaced stream's prefix too short for its finest level decodes to a coarser one, and says the same") {
+TEST_CASE("a displaced stream's prefix too short for its finest level decodes to a coarser one, and says the same",
+          "[slow]") {
   const SemiregularMesh mesh = samples::displaced(shapes::icosahedron(), 8);
   const Bytes stream = displaced_stream_of(mesh, 16);
   const std::size_t header = header_bytes(stream);

@@ -76,7 +76,7 @@ TEST_CASE("bodies of constant bytes decode, or end with a named error") {
       }
 }
 
-TEST_CASE("a prefix too short for the finest level decodes to a coarser one, and says the same") {
+TEST_CASE("a prefix too short for the finest level decodes to a coarser one, and says the same", "[slow]") {
   const SemiregularMesh mesh = samples::bumpy_sphere(8);
   Progress silent;
   EncodeOptions options;

@@ -37,7 +37,7 @@ double mean_square(const SemiregularMesh& mesh, const std::vector<Vec3>& points)
 
 // A roof over the lattice's rows, its ridge a third of the way between two of them: with a row on the ridge every face
 // is in one of its planes.
-TEST_CASE("vertices slide onto a crease, the freer they are the nearer") {
+TEST_CASE("vertices slide onto a crease, the freer they are the nearer", "[slow]") {
   Parameterization map = exact_maps::quadrisected(shapes::sector_disc(6, 0), 6);
   const double row = std::sqrt(0.75) / 8.0, ridge = row * 3.0 / 8.0;
   for (Vec3& p : map.surface.positions) p.z() = 1.0 - std::abs(p.y() - ridge);

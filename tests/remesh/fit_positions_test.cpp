@@ -145,7 +145,7 @@ TEST_CASE("a flat surface stays flat whatever the map does") {
 // On a lattice of equilateral triangles with circumradius R the interpolation error of |x|²/2 is (R² - |x-c|²)/2, whose
 // projection on the hat functions is its mean: with E|x-c|² = R²/4 and its variance the ratio is √(1/15 / (1/15 -
 // 1/16)).
-TEST_CASE("the fit is four times nearer to a paraboloid than sampling") {
+TEST_CASE("the fit is four times nearer to a paraboloid than sampling", "[slow]") {
   CHECK(sampled_over_fitted(paraboloid, points_inside) == Approx(4.0).epsilon(0.02));
 }
 
@@ -155,7 +155,7 @@ TEST_CASE("of a saddle the samples are the fit already") {
 }
 
 // Along a parabola the error t (h - t) / 2 has mean h²/12 and mean square h⁴/120.
-TEST_CASE("the boundary is fitted along itself, √6 times nearer to a parabola than sampling") {
+TEST_CASE("the boundary is fitted along itself, √6 times nearer to a parabola than sampling", "[slow]") {
   CHECK(sampled_over_fitted(paraboloid, points_along_a_side) == Approx(std::sqrt(6.0)).epsilon(0.02));
 }
 
@@ -217,7 +217,7 @@ TEST_CASE("no face turns against the surface over it but those whose samples do"
   }
 }
 
-TEST_CASE("a sphere: the fit is nearer by what its curvature, alike in all directions, allows") {
+TEST_CASE("a sphere: the fit is nearer by what its curvature, alike in all directions, allows", "[slow]") {
   Parameterization map = exact_maps::quadrisected(shapes::icosahedron(), 6);
   for (Vec3& p : map.surface.positions) p.normalize();
   const auto error = [&](Positions positions) {
