@@ -304,7 +304,7 @@ TEST_CASE("an error is JSON too where JSON is asked for") {
   CHECK(json::parse(ran.out)["error"]["cause"] == "cannot-open");
 }
 
-TEST_CASE("curve draws what works, names what fails, and ends with status 1 for it") {
+TEST_CASE("curve draws what works, names what fails, and ends with status 1 for it", "[slow]") {
   const TemporaryFolder folder, output;
   const std::string good = write_bumpy(folder), bad = folder.file("bad.off");
   std::ofstream(bad) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 nan\n3 0 1 2\n";

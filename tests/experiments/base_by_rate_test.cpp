@@ -18,7 +18,7 @@ BaseByRate choice(const Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("the base by rate is the best of those that were tried, the same for one and two threads") {
+TEST_CASE("the base by rate is the best of those that were tried, the same for one and two threads", "[slow]") {
   const Mesh mesh = shapes::bumpy_sphere(3);
   const int before = thread_count();
   set_thread_count(1);

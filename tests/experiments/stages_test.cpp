@@ -24,7 +24,7 @@ CurveOptions small_run(std::vector<StreamMode> modes) {
 
 }  // namespace
 
-TEST_CASE("streams for one size each keep to it, and decode to no less than the embedded stream's prefixes") {
+TEST_CASE("streams for one size each keep to it, and decode to no less than the embedded stream's prefixes", "[slow]") {
   const SemiregularMesh mesh =
       remesh(parameterize(shapes::bumpy_sphere(4), {.base_vertices = 12}, silent).map, {}, silent);
   // What is held to be no worse is the distance to the remesh; near the ceiling that to the input may move either way.
@@ -50,7 +50,7 @@ TEST_CASE("streams for one size each keep to it, and decode to no less than the 
   CHECK(gain > 0.1);
 }
 
-TEST_CASE("a mode's rows do not depend on what else is asked for") {
+TEST_CASE("a mode's rows do not depend on what else is asked for", "[slow]") {
   const Mesh input = shapes::torus(24, 16);
   const auto both =
       rate_distortion_curve(input, "torus", small_run({StreamMode::Fixed, StreamMode::Embedded}), silent).points;
