@@ -4,17 +4,16 @@
 // found in the libraries themselves, which the program then loads as it starts (tests/cli looks for that).
 #include <dlfcn.h>
 #include <stdlib.h>
-#include <sys/mman.h>
 
 #include <cholmod.h>
 #include <umfpack.h>
 
 #include <cstddef>
-#include <new>
 #include <string>
 #include <type_traits>
 
 #include "mesh/error.h"
+#include "param/linear/address_space.h"
 
 namespace gsp {
 
@@ -25,9 +24,7 @@ constexpr std::size_t kLibraryMemory = std::size_t{208} << 20;
 
 /// Global, so that OpenBLAS is found by name (param/linear/sparse_solver.cpp).
 void* open_library(const char* file) {
-  void* const room = mmap(nullptr, kLibraryMemory, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (room == MAP_FAILED) throw std::bad_alloc();
-  munmap(room, kLibraryMemory);
+  require_address_space(kLibraryMemory);
   setenv("OPENBLAS_NUM_THREADS", "1", 0);  // else it starts threads that are never used
   void* const library = dlopen(file, RTLD_NOW | RTLD_GLOBAL);
   if (!library) throw Error(Cause::SolverFailed, std::string("a library of the solver is not there: ") + dlerror());

@@ -20,17 +20,13 @@ void replace(std::string& page, std::string_view mark, std::string_view text) {
   if (const std::size_t place = page.find(mark); place != std::string::npos) page.replace(place, mark.size(), text);
 }
 
-std::string packed(std::string_view bytes) {
-  return base64({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-}
-
 }  // namespace
 
 bool has_browser_decoder() { return !GSP_PAGE_TEXT(decoder_wasm_gz).empty(); }
 
 std::string filled_page(std::string_view html, const std::vector<PagePart>& parts, std::string_view data_mark,
                         const std::string& data) {
-  const std::string three = packed(GSP_PAGE_TEXT(three_min_js_gz)), decoder = packed(GSP_PAGE_TEXT(decoder_wasm_gz));
+  const std::string three = base64(GSP_PAGE_TEXT(three_min_js_gz)), decoder = base64(GSP_PAGE_TEXT(decoder_wasm_gz));
   std::string page(html);
   for (const auto& [mark, text] : parts) replace(page, mark, text);
   for (const auto& [mark, text] :

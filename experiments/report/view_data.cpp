@@ -136,8 +136,7 @@ struct Streams {
       of_size.push_back(static_cast<std::size_t>(known - paths.begin()));
       if (known != paths.end()) continue;
       paths.push_back(path);
-      const std::string file = read_file(path);
-      texts.push_back(base64({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()}));
+      texts.push_back(base64(read_file(path)));
     }
   }
 };

@@ -151,13 +151,14 @@ std::optional<FlipSite> Flipper::due(const Candidate& c) const {
 
 int Flipper::pass() {
   const std::vector<Candidate> all = candidates();
+  const std::size_t ahead = copies_.empty() ? 1 : kSideBySide;  // on one thread some would be made in vain
   int flipped = 0;
   for (auto next = all.begin(); next != all.end();) {
     ++round_;
     all_changed_ = false;
     const auto first = next;
     std::vector<FlipSite> sites;
-    for (; next != all.end() && sites.size() < kSideBySide; ++next)
+    for (; next != all.end() && sites.size() < ahead; ++next)
       if (const auto site = due(*next)) sites.push_back(*site);
     const std::vector<Attempt> made = attempt_all(sites);
     for (auto c = first; c != next; ++c) {

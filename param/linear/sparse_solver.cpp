@@ -4,9 +4,6 @@
 
 #ifdef GSP_SUITESPARSE
 #include <dlfcn.h>
-#include <sys/mman.h>
-
-#include <new>
 
 #include <Eigen/CholmodSupport>
 #include <Eigen/UmfPackSupport>
@@ -16,6 +13,7 @@
 #endif
 
 #include "mesh/error.h"
+#include "param/linear/address_space.h"
 
 namespace gsp {
 
@@ -46,14 +44,8 @@ class Setting {
   void (*set_)(int);
 };
 
-/// OpenBLAS 0.3.21 maps 128 MiB for each call that runs beside others, and asks for ever where the system refuses.
+/// OpenBLAS 0.3.21 maps 128 MiB for each call that runs beside others.
 constexpr std::size_t kBlasMemory = std::size_t{144} << 20;
-
-void require_address_space(std::size_t bytes) {
-  void* const room = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (room == MAP_FAILED) throw std::bad_alloc();
-  munmap(room, bytes);
-}
 
 /// Those alive on this thread.
 thread_local int alone_here = 0;

@@ -22,7 +22,7 @@ run_in_page() {
     echo "for (const level of ['error', 'warn']) console[level] = (...text) => pageErrors.push(text.join(' '));</script>"
     cat "$page"
     echo "<script>"
-    cat "$script"
+    cat "$(dirname "${BASH_SOURCE[0]}")/page_checks.js" "$script"
     echo "</script>"
   } > "$test"
 

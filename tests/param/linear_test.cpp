@@ -12,6 +12,7 @@
 #include "param/atlas/folds.h"
 #include "param/corners/descend_corners.h"
 #include "param/energy/lower_distortion.h"
+#include "param/linear/address_space.h"
 #include "param/linear/global_system.h"
 #include "param/linear/intrinsic_triangulation.h"
 #include "param/linear/sparse_solver.h"
@@ -272,4 +273,9 @@ TEST_CASE("a solve leaves the number of threads of OpenBLAS and OpenMP as it fou
   CHECK(levels() == 1);
   set_blas(blas_before);
   set_levels(levels_before);
+}
+
+TEST_CASE("address space that no process has is refused, and what there is stays free") {
+  CHECK_NOTHROW(require_address_space(1 << 20));
+  CHECK_THROWS_AS(require_address_space(std::size_t{1} << 60), std::bad_alloc);
 }

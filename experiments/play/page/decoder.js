@@ -119,3 +119,8 @@ async function decodedShape(view, count, stream = 0) {
 // A slider's places 0..steps as bytes, in equal factors from `low` to `high`, and back.
 const bytesAt = (place, steps, low, high) => Math.round(low * (high / low) ** (place / steps));
 const placeOf = (bytes, steps, low, high) => (high > low ? Math.round(steps * Math.log(bytes / low) / Math.log(high / low)) : 0);
+
+// Several places may stand for the same byte: a slider that is at one of them stays.
+function setSlider(slider, bytes, steps, low, high) {
+  if (bytesAt(Number(slider.value), steps, low, high) !== bytes) slider.value = placeOf(bytes, steps, low, high);
+}

@@ -36,9 +36,7 @@
 
   function controls() {
     const kind = State.get('colours');
-    // Several places may stand for the same byte: a slider that is at one of them stays.
-    const budget = byId('budget');
-    if (bytesAt(Number(budget.value), steps, low, high) !== wanted()) budget.value = placeOf(wanted(), steps, low, high);
+    setSlider(byId('budget'), wanted(), steps, low, high);
     byId('lines').value = State.get('lines');
     byId('lines-value').textContent = 2 ** Number(State.get('lines'));
     byId('lines-control').style.visibility = kind === 'isolines' ? 'visible' : 'hidden';

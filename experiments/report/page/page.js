@@ -108,9 +108,8 @@
   function setBudget(view, bytes) {
     const { sizes } = view, budget = byId('budget'), any = anySize(view, kindOf());
     budget.max = any ? kSteps : sizes.length - 1;
-    // Several places may stand for the same byte: a slider that is at one of them stays.
-    if (any && bytesOfPlace(view, Number(budget.value)) === bytes) return;
-    budget.value = any ? placeOf(bytes, kSteps, sizes[0].bytes, sizes[sizes.length - 1].bytes) : sizes.findIndex((s) => s.bytes === bytes);
+    if (any) setSlider(budget, bytes, kSteps, sizes[0].bytes, sizes[sizes.length - 1].bytes);
+    else budget.value = sizes.findIndex((s) => s.bytes === bytes);
   }
 
   // What is drawn of a view at so many bytes: decoded, or as it is stored.
