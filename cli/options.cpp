@@ -272,6 +272,9 @@ void Command::parameterize_options(ParameterizeOptions& options) {
             "how corners move between solves: the paper's relaxation, or down the energy's gradient");
   axis_word("base_edges", &CellOptions::parameterize, options,
             "whether base edges are flipped where that lowers the distortion, or kept as the simplification left them");
+  axis_word("priority", &CellOptions::parameterize, options,
+            "order of the vertex removals: by the cost, or MAPS' own, independent sets by area and curvature (wants a "
+            "number of base vertices)");
   axis_word("features", &CellOptions::parameterize, options,
             "curves of sharp edges that become chains of base edges: found by themselves, or edges at N degrees and "
             "over; none for the paper's map, which runs across them");

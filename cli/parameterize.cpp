@@ -70,6 +70,7 @@ int run_parameterize(ParameterizeArguments& options, Context& context) {
                  {"weights", weights_name(options.parameterize.weights)},
                  {"corners", corners_name(options.parameterize.corners)},
                  {"base_edges", base_edges_name(options.parameterize.base_edges)},
+                 {"priority", priority_name(options.parameterize.priority)},
                  {"replicate", options.parameterize.replicate},
                  {"base_vertices", result.map.base.vertex_count()},
                  {"base_faces", result.map.base.face_count()},

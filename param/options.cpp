@@ -30,6 +30,8 @@ const char* corners_name(Corners corners) { return corners == Corners::Gradient 
 
 const char* base_edges_name(BaseEdges base_edges) { return base_edges == BaseEdges::Flip ? "flip" : "keep"; }
 
+const char* priority_name(Priority priority) { return priority == Priority::Maps ? "maps" : "omega"; }
+
 const char* method_name(Method method) {
   switch (method) {
     case Method::Gsp:
@@ -55,5 +57,7 @@ Corners corners_of(const std::string& word) { return value_of(kCorners, corners_
 BaseEdges base_edges_of(const std::string& word) {
   return value_of(kBaseEdges, base_edges_name, word, "way of base edges");
 }
+
+Priority priority_of(const std::string& word) { return value_of(kPriorities, priority_name, word, "priority"); }
 
 }  // namespace gsp

@@ -72,6 +72,18 @@ const char* base_edges_name(BaseEdges base_edges);
 /// The inverse. Throws Error(BadOption).
 BaseEdges base_edges_of(const std::string& word);
 
+/// In which order the simplification removes vertices.
+enum class Priority {
+  Omega,  ///< the paper's: least Ω first (§3.1.1)
+  Maps    ///< MAPS' own (Lee et al. 1998): independent sets, by area and curvature
+};
+inline constexpr Priority kPriorities[] = {Priority::Omega, Priority::Maps};
+
+/// "omega", "maps".
+const char* priority_name(Priority priority);
+/// The inverse. Throws Error(BadOption).
+Priority priority_of(const std::string& word);
+
 /// Sizes of the base that are no number: where the paper's simplification stops before metric distortion dominates Ω
 /// (§3.1.1, figure 5d), and the one that costs the fewest bytes, which `parameterize` does not know
 /// (experiments/base/base_by_rate.h).
@@ -86,6 +98,9 @@ struct ParameterizeOptions {
   Weights weights = Weights::MeanValue;
   Corners corners = Corners::Relax;
   BaseEdges base_edges = BaseEdges::Flip;
+  /// Change it to stand on a base as MAPS made it. Holes are filled by least Ω either way. Its size must be given:
+  /// `kBaseByOmega` is about the order of Ω.
+  Priority priority = Priority::Omega;
   /// Curves of sharp edges that become chains of base edges: found by `detect_features`, none, or all edges at or over
   /// a dihedral angle in 1 to 179 degrees. None for the paper's map, which runs across sharp edges.
   int feature_degrees = kAutoFeatures;

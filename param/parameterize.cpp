@@ -42,6 +42,9 @@ void check_options(const ParameterizeOptions& options) {
     throw Error(Cause::BadOption,
                 "base vertices must be at least 4, or chosen by the paper's stop; a base by rate is chosen before "
                 "(base_by_rate)");
+  if (options.base_vertices == kBaseByOmega && options.priority == Priority::Maps)
+    throw Error(Cause::BadOption,
+                "the paper's stop is about the order of Ω: MAPS' priority needs a number of base vertices");
   if (!(options.gamma >= 0.0) || !(options.mu >= 0.0))
     throw Error(Cause::BadOption, "gamma and mu must not be negative");
   if (options.replicate < 0) throw Error(Cause::BadOption, "the number of the replicate must not be negative");
@@ -70,6 +73,7 @@ std::vector<std::string> provenance(const Mesh& input, const ParameterizeOptions
                                     line("input_vertices", input.vertex_count()),
                                     line("input_faces", input.face_count())};
   if (!base.creases.empty()) lines.push_back(line("creases", base.creases.size()));
+  if (options.priority == Priority::Maps) lines.push_back(line("priority", priority_name(options.priority)));
   if (options.replicate > 0) lines.push_back(line("replicate", options.replicate));
   return lines;
 }

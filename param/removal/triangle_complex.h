@@ -62,6 +62,8 @@ class TriangleComplex {
   /// The triangle across the edge opposite to a corner; -1 on a boundary.
   int opposite(int triangle, int vertex) const { return neighbour(triangle, (corner_index(triangle, vertex) + 1) % 3); }
 
+  /// Whether the vertex has not been removed.
+  bool has(int vertex) const { return incident_[vertex] >= 0; }
   void gather(int vertex, Star& star) const;
   /// Whether an edge joins two vertices, or copies of them; the copies of one vertex count as joined.
   bool edge_exists(int a, int b) const;

@@ -4,13 +4,14 @@
 #include <numeric>
 #include <optional>
 #include <queue>
+#include <utility>
 
 #include "mesh/error.h"
 #include "mesh/parallel.h"
-#include "mesh/random.h"
 #include "param/removal/removal_cost.h"
 #include "param/removal/vertex_map.h"
 #include "param/simplify/automatic_stop.h"
+#include "param/simplify/removal_order.h"
 
 namespace gsp {
 
@@ -33,21 +34,8 @@ constexpr double kCopyShare =
     0.5;  // of the Ω of a vertex with two copies: the mean of the two sides (bench/README.md, "Feature curves")
 constexpr int kLevelPerBase = 24;  // vertices of the coarsest level for each of the base
 
-// Largest relative change of a price from one replicate to another. A price is taken at no more than 32 points of a
-// star (RemovalCost::kSamples), so it means far fewer digits than this changes.
-constexpr double kPriceNoise = 1e-4;
-
 /// Copies of one counted once.
 int used_vertices(const Surface& surface) { return surface.seams.count_whole(remaining_vertices(surface, {})); }
-
-/// A triangle of ring vertices as indices into the ring.
-RingTriangle in_ring(const Star& star, const Triangle& vertices) {
-  RingTriangle t;
-  for (int k = 0; k < 3; ++k)
-    t[k] = static_cast<int>(std::find(star.ring.begin(), star.ring.end(), vertices[k]) - star.ring.begin());
-  std::sort(t.begin(), t.end());
-  return t;
-}
 
 class Simplifier {
  public:
@@ -61,7 +49,9 @@ class Simplifier {
         stop_(start_),
         remaining_(start_),
         pricers_(kBlocks,
-                 RemovalCost(*surface_, neighbours_, map_.complex(), map_.locations(), map_.points(), options_)) {}
+                 RemovalCost(*surface_, neighbours_, map_.complex(), map_.locations(), map_.points(), options_)) {
+    if (options.priority == Priority::Maps) maps_.emplace(map_.complex(), surface_->mesh.positions, options.replicate);
+  }
 
   SimplifyResult run(int coarsest);
 
@@ -83,6 +73,7 @@ class Simplifier {
   double price(int vertex) const;
   void price_with_copy(RemovalCost& pricer, int vertex);
   bool fit(int vertex, int other) const;
+  void begin_round();
   void price_all();
   void price_next(int vertex);
   void remove_down_to(int target);
@@ -101,6 +92,7 @@ class Simplifier {
   VertexMap map_;
   const int start_;  ///< vertices of the surface
   AutomaticStop stop_;
+  std::optional<MapsOrder> maps_;  ///< in place of Ω
   int remaining_;
   bool ended_ = false;  ///< by the automatic stop
   SimplifyResult result_;
@@ -131,13 +123,22 @@ OmegaRecord Simplifier::parts(int vertex) const {
   return sum;
 }
 
-/// What the removal costs, by which vertices are queued: its Ω, but for a replicate's chance.
+/// What the removal costs, by which vertices are queued: its Ω, but for a replicate's chance, or MAPS' priority.
 double Simplifier::price(int vertex) const {
+  if (maps_) return maps_->price(vertex);
   const double omega = (seams().other_of(vertex) < 0 ? 1.0 : kCopyShare) * parts(vertex).omega();
-  if (options_.replicate == 0) return omega;
-  // A generator of its own for each vertex, so that its factor does not depend on the order of the prices.
-  Random random(static_cast<std::uint64_t>(options_.replicate) << 32 | static_cast<std::uint32_t>(vertex));
-  return omega * (1.0 + kPriceNoise * (2.0 * random.uniform() - 1.0));
+  return omega * factor_of_chance(options_.replicate, vertex);
+}
+
+/// MAPS weighs what is left, and all that can be removed is queued anew.
+void Simplifier::begin_round() {
+  std::vector<int> left;
+  for (int v = 0; v < static_cast<int>(surface_->mesh.positions.size()); ++v)
+    if (key(v) == v && map_.complex().has(v)) left.push_back(v);
+  maps_->begin_round(left);
+  queue_ = {};
+  for (int v : left)
+    if (queued_[v]) queue_.push({price(v), v, ++stamp_[v]});
 }
 
 /// Whether the fillings of two copies' holes have no edge in common on the whole surface, but for that along the curve.
@@ -177,11 +178,10 @@ void Simplifier::price_all() {
   stamp_.assign(count, 0);
   stale_.assign(count, 0);
   queued_.assign(count, 0);
-  for (int v = 0; v < count; ++v) {
-    if (key(v) != v || !candidates_[v].feasible) continue;
-    queue_.push({price(v), v, 0});
-    queued_[v] = 1;
-  }
+  for (int v = 0; v < count; ++v) queued_[v] = key(v) == v && candidates_[v].feasible;
+  if (maps_) return begin_round();
+  for (int v = 0; v < count; ++v)
+    if (queued_[v]) queue_.push({price(v), v, 0});
 }
 
 /// Whether an edge of the filling has come to join two vertices of the ring elsewhere since it was chosen.
@@ -222,8 +222,14 @@ void Simplifier::price_next(int vertex) {
 
 void Simplifier::remove_down_to(int target) {
   std::vector<OmegaRecord>& record = result_.omega;
+  bool round_removes = true;  // a round that does not is the last
   while (!ended_ && remaining_ > target && !queue_.empty()) {
     const Entry top = queue_.top();
+    if (maps_ && !maps_->is_due(top.cost)) {
+      if (!std::exchange(round_removes, false)) return;
+      begin_round();
+      continue;
+    }
     queue_.pop();
     if (top.stamp != stamp_[top.vertex]) continue;
     if (stale_[top.vertex] || !gather(top.vertex)) {
@@ -241,6 +247,7 @@ void Simplifier::remove_down_to(int target) {
       return;
     }
     if (!remove()) continue;
+    round_removes = true;
     record.push_back(next);
     if (record.size() % 4096 == 0)
       progress_.report("simplify", double(record.size()) / (start_ - options_.base_vertices));
@@ -305,6 +312,7 @@ void Simplifier::take_out(const Star& star, const Candidate& candidate) {
   result_.removals.add(star.center, filling_);
   for (int v : star.ring) {
     const int neighbour = key(v);
+    if (maps_) maps_->hold(neighbour);
     stale_[neighbour] = 1;  // on a boundary the triangles behind do not name all
     if (queued_[neighbour]) continue;
     // It could not be removed before; in its new star it may be.
@@ -359,18 +367,6 @@ SimplifyResult Simplifier::run(int coarsest) {
 }
 
 }  // namespace
-
-void RemovalScript::add(int vertex, const std::vector<Triangle>& triangles) {
-  vertices_.push_back(vertex);
-  triangles_.insert(triangles_.end(), triangles.begin(), triangles.end());
-  first_.push_back(static_cast<int>(triangles_.size()));
-}
-
-void RemovalScript::place(int removal, const Star& star, Removal& made) const {
-  made.vertex = vertices_[removal];
-  made.triangles.clear();
-  for (int i = first_[removal]; i < first_[removal + 1]; ++i) made.triangles.push_back(in_ring(star, triangles_[i]));
-}
 
 SimplifyResult simplify(std::shared_ptr<const Surface> surface, const ParameterizeOptions& options, int coarsest,
                         Progress& progress) {

@@ -8,22 +8,9 @@
 #include "param/options.h"
 #include "param/removal/removal_record.h"
 #include "param/simplify/overlay.h"
+#include "param/simplify/removal_script.h"
 
 namespace gsp {
-
-/// The removals that made a complex, by vertices of the surface.
-class RemovalScript {
- public:
-  int size() const { return static_cast<int>(vertices_.size()); }
-  void add(int vertex, const std::vector<Triangle>& triangles);
-  int vertex(int removal) const { return vertices_[removal]; }
-  /// Sets the removal's triangles for a star as the complex gathers it.
-  void place(int removal, const Star& star, Removal& made) const;
-
- private:
-  std::vector<int> vertices_, first_{0};
-  std::vector<Triangle> triangles_;
-};
 
 /// The simplification is made in levels: the complex of one is the surface of the next. Only the last, small one
 /// carries the map as a homeomorphism, down to the base; the vertices that those before it took out are put back into

@@ -257,6 +257,7 @@ TEST_CASE("options are named and read back, and other words refused") {
   for (Weights w : kWeights) CHECK(weights_of(weights_name(w)) == w);
   for (Corners c : kCorners) CHECK(corners_of(corners_name(c)) == c);
   for (BaseEdges b : kBaseEdges) CHECK(base_edges_of(base_edges_name(b)) == b);
+  for (Priority p : kPriorities) CHECK(priority_of(priority_name(p)) == p);
   CHECK(method_name(Method::MapsSmoothed) == std::string("maps-smoothed"));
   for (const char* word : {"", "Gsp", "linear ", "uniform,"}) {
     CHECK(cause_of([&] { method_of(word); }) == Cause::BadOption);
@@ -264,6 +265,7 @@ TEST_CASE("options are named and read back, and other words refused") {
     CHECK(cause_of([&] { weights_of(word); }) == Cause::BadOption);
     CHECK(cause_of([&] { corners_of(word); }) == Cause::BadOption);
     CHECK(cause_of([&] { base_edges_of(word); }) == Cause::BadOption);
+    CHECK(cause_of([&] { priority_of(word); }) == Cause::BadOption);
   }
   const ParameterizeOptions paper = paper_options();
   CHECK(paper.objective == Objective::Linear);
