@@ -8,6 +8,7 @@
 #include "param/atlas/folds.h"
 #include "param/parameterize.h"
 #include "param/simplify/removal_order.h"
+#include "param/simplify/removal_script.h"
 #include "param/simplify/simplify.h"
 #include "param_checks.h"
 
@@ -100,6 +101,20 @@ TEST_CASE("a vertex of a valence over 12 waits") {
   order.begin_round(all);
   CHECK_FALSE(order.is_due(order.price(0)));
   CHECK(order.is_due(order.price(1)));
+}
+
+TEST_CASE("a script places its triangles in a ring, wherever that starts") {
+  RemovalScript script;
+  script.add(9, {{4, 5, 6}, {6, 7, 4}});
+  script.add(8, {{1, 2, 3}});
+  REQUIRE(script.size() == 2);
+  CHECK(script.vertex(1) == 8);
+  const Star star{9, false, {6, 7, 4, 5}, {0, 1, 2, 3}};
+  CHECK(in_ring(star, {4, 5, 6}) == RingTriangle{0, 2, 3});
+  Removal made{-1, {{7, 7, 7}}};
+  script.place(0, star, made);
+  CHECK(made.vertex == 9);
+  CHECK(made.triangles == std::vector<RingTriangle>{{0, 2, 3}, {0, 1, 2}});
 }
 
 TEST_CASE("MAPS' priority removes independent sets, down to the base that was asked for") {
