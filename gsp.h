@@ -4,6 +4,7 @@
 /// <gsp/coder/anchors.h>, are a library of their own, gsp::anchors.
 
 #include "coder/codec.h"
+#include "mesh/cut_apart.h"
 #include "mesh/error.h"
 #include "mesh/features/features.h"
 #include "mesh/io.h"

@@ -5,6 +5,7 @@
 
 #include "cli/options.h"
 #include "cli/print.h"
+#include "mesh/cut_apart.h"
 #include "mesh/io.h"
 #include "mesh/topology.h"
 #include "mesh/weld.h"
@@ -65,6 +66,19 @@ Json weld_report(const Mesh& mesh, int boundary_edges) {
           {"asked_for_by", closed > 0 ? Json(exact_is_enough ? "--weld exact" : "--weld 1e-6") : Json()}};
 }
 
+Json cuts_report(const CutCounts& cuts) {
+  return {{"cut_edges", cuts.edges}, {"cut_vertices", cuts.vertices}, {"added_vertices", cuts.added_vertices}};
+}
+
+/// What `--repair cut` would do.
+Json repair_report(const Mesh& mesh) {
+  const CutApart cut = cut_apart(mesh);
+  Json report = cuts_report(cut.counts);
+  report["usable_then"] = topology_report(cut.surface.mesh).usable();
+  report["asked_for_by"] = "--repair cut";
+  return report;
+}
+
 /// Of a displaced mesh, its control mesh and how large its displacements are.
 Json displaced_report(const SemiregularMesh& mesh) {
   const Displacements numbers = displaced_form(mesh).displacements;
@@ -113,6 +127,10 @@ int info(const std::string& path, const ReadOptions& options, const Context& con
     const TopologyReport found = topology_report(file.mesh);
     report.update(topology(file.mesh, found));
     if (found.boundary_edges > 0) report["weld"] = weld_report(file.mesh, found.boundary_edges);
+    const bool to_cut =
+        !found.non_manifold_edges.empty() || !found.non_manifold_vertices.empty() || !found.misoriented_edges.empty();
+    if (to_cut && found.out_of_range_faces.empty()) report["repair"] = repair_report(file.mesh);
+    if (file.cuts) report["repair"] = cuts_report(*file.cuts);
     if (!file.notes.empty()) report["notes"] = file.notes;
     if (path.ends_with(".sr.ply")) report.update(levels(path));
     if (found.refusal) refusal = in_file(*found.refusal, file.numbering);

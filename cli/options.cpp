@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "experiments/cells/cell_options.h"
+#include "mesh/words.h"
 
 namespace gsp::cli {
 
@@ -298,6 +299,14 @@ void Command::read_options(ReadOptions& options) {
                                : refusal(word, 0.0, kLargest, fmt::format("exact or {}", range_of(0.0, kLargest)));
       })
       ->option_text("exact|X");
+  const std::vector<std::string> repairs = words_of(kRepairs, repair_name);
+  app_->add_option_function<std::string>(
+          "--repair", [&options](const std::string& word) { options.repair = repair_of(word); },
+          fmt::format("cut: edges of more than two faces, or of two that run the same way, and vertices of more than "
+                      "one fan are cut apart after the weld; none: refused where a map is made [{}; {}]",
+                      repair_name(options.repair), fmt::join(repairs, ", ")))
+      ->check([repairs](const std::string& word) { return refusal(word, repairs); })
+      ->option_text("WORD");
 }
 
 void Command::replicate_option(ParameterizeOptions& options) {

@@ -69,7 +69,7 @@ class Command {
   /// What the command does when all its options are right and its outputs can be written (`require_outputs`).
   void on_run(std::function<int()> action);
 
-  /// --weld: how the surfaces of the command are read.
+  /// --weld, --repair: how the surfaces of the command are read.
   void read_options(ReadOptions& options);
   // The options of a stage, the same wherever the stage is run.
   void parameterize_options(ParameterizeOptions& options);

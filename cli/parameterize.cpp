@@ -52,7 +52,8 @@ int run_parameterize(ParameterizeArguments& options, Context& context) {
     const auto step = progress.step("read");
     return read_input(options.mesh, options.read, context);
   }();
-  if (!options.features.empty()) options.parameterize.features = read_features(options.features, file.mesh);
+  if (!options.features.empty())
+    options.parameterize.features = in_places_of(file, [&] { return read_features(options.features, file.mesh); });
   const ParameterizeResult result = in_places_of(file, [&] {
     return parameterize(file.mesh, with_base_by_rate(file.mesh, options.parameterize, progress), progress);
   });
@@ -83,6 +84,8 @@ int run_parameterize(ParameterizeArguments& options, Context& context) {
                  {"base_edges_flipped", result.base_edges_flipped},
                  {"flips_before_repair", result.flips_before_repair},
                  {"vertices_added", result.map.surface.vertex_count() - file.mesh.vertex_count()},
+                 {"edges_cut_apart", file.cuts ? file.cuts->edges : 0},
+                 {"vertices_cut_apart", file.cuts ? file.cuts->vertices : 0},
                  {"vertices_held", result.held_vertices},
                  {"cost_stages_begin", stages(cost)},
                  {"output", options.output}};

@@ -9,6 +9,11 @@ namespace gsp {
 
 inline bool names_vertex_twice(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
+// A half-edge has the number of the corner where it starts.
+inline int next_corner(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
+inline int previous_corner(int h) { return h % 3 == 0 ? h + 2 : h - 1; }
+inline int vertex_at(const Mesh& mesh, int corner) { return mesh.faces[corner / 3][corner % 3]; }
+
 /// The half-edges of any triangle soup grouped by their undirected edge. Half-edge 3f + k runs from corner k to corner
 /// k+1 of face f, as in `Halfedges`. Faces that name a vertex twice are left out. O(V + F log F).
 class EdgeGroups {

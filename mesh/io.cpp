@@ -15,6 +15,7 @@
 #include "mesh/ply_elements.h"
 #include "mesh/read_file.h"
 #include "mesh/topology.h"
+#include "mesh/words.h"
 
 namespace gsp {
 
@@ -109,12 +110,17 @@ void write_stl(std::ostream& out, const Mesh& mesh) {
 
 }  // namespace
 
+const char* repair_name(Repair repair) { return repair == Repair::Cut ? "cut" : "none"; }
+
+Repair repair_of(const std::string& name) { return value_of(kRepairs, repair_name, name, "repair"); }
+
 SurfaceFile read_surface(const std::string& path, const ReadOptions& options) {
   const MeshFormat format = require_format(path);
   const std::string bytes = read_file(path);
   try {
     SurfaceFile file = parse_surface(format, bytes);
     if (options.weld) weld(file, *options.weld);
+    if (options.repair == Repair::Cut) cut_apart(file);
     return file;
   } catch (const Error& error) {
     throw error.within(path);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,12 +10,24 @@
 
 namespace GSP_PUBLIC gsp {
 
+enum class Repair { None, Cut };
+inline constexpr std::array kRepairs = {Repair::None, Repair::Cut};
+
+/// none, cut.
+const char* repair_name(Repair repair);
+
+/// The inverse. Throws Error(BadOption).
+Repair repair_of(const std::string& name);
+
 struct ReadOptions {
   /// Joins vertices that lie within this share of the diagonal of the surface's bounding box, 0..kLargestWeld; 0 joins
   /// those at the same place, nothing joins none. For surfaces split along seams and STL whose corners differ by
   /// rounding.
   std::optional<double> weld = {};
   static constexpr double kLargestWeld = 0.01;
+
+  /// After the weld. Cut takes surfaces that are no consistently oriented manifolds: cut_apart.h.
+  Repair repair = Repair::None;
 };
 
 /// Reads a surface from PLY (ASCII, binary, both byte orders), OBJ, OFF or STL (ASCII, binary) by the name's ending,

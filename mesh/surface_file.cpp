@@ -59,4 +59,15 @@ void weld(SurfaceFile& file, double share) {
                                     : ""));
 }
 
+void cut_apart(SurfaceFile& file) {
+  CutApart cut = gsp::cut_apart(file.mesh);
+  const CutCounts counts = cut.counts;
+  if (counts.added_vertices > 0) file.numbering.vertices = left_of(file.numbering.vertices, cut.surface.original);
+  file.mesh = std::move(cut.surface.mesh);
+  file.cuts = counts;
+  file.notes.push_back(std::to_string(counts.edges) + " edges and " + std::to_string(counts.vertices) +
+                       " vertices were cut apart, which adds " + std::to_string(counts.added_vertices) +
+                       " vertices at the same places");
+}
+
 }  // namespace gsp

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "mesh/cut_apart.h"
 #include "mesh/error.h"
 #include "mesh/export.h"
 #include "mesh/mesh.h"
@@ -20,7 +22,8 @@ struct Numbering {
 struct SurfaceFile {
   Mesh mesh;
   Numbering numbering;
-  std::vector<std::string> notes;  ///< sentences on what the file holds and the surface does not, for people
+  std::optional<CutCounts> cuts = {};   ///< where it was cut apart
+  std::vector<std::string> notes = {};  ///< sentences on what the file holds and the surface does not, for people
 };
 
 /// The error with vertices and faces of the mesh told as the file counts them.
@@ -29,6 +32,9 @@ Error in_file(const Error& error, const Numbering& numbering);
 /// Joins vertices of the file's surface as `weld` of weld.h does, and drops the faces that this leaves with fewer than
 /// three corners. Notes how many.
 void weld(SurfaceFile& file, double share);
+
+/// Cuts the file's surface apart as `cut_apart` of cut_apart.h does. Counts and notes what was cut.
+void cut_apart(SurfaceFile& file);
 
 /// Calls the action, whose errors are about the file's surface.
 template <class Action>

@@ -22,10 +22,6 @@ constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 bool is_finite(const Vec3& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() <= kLargestCoordinate; }
 
-int next_corner(int h) { return h % 3 == 2 ? h - 2 : h + 1; }
-
-int vertex_at(const Mesh& mesh, int corner) { return mesh.faces[corner / 3][corner % 3]; }
-
 bool in_range(const Triangle& t, const Mesh& mesh) {
   return std::all_of(t.begin(), t.end(), [&](int v) { return v >= 0 && v < mesh.vertex_count(); });
 }

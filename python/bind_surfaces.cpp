@@ -13,7 +13,8 @@ namespace {
 
 py::tuple read(const std::string& path, const py::kwargs& keywords) {
   Call call("read", keywords);
-  const ReadOptions options{call.take<double>("weld")};
+  ReadOptions options{.weld = call.take<double>("weld")};
+  if (const auto repair = call.take<std::string>("repair")) options.repair = repair_of(*repair);
   SurfaceFile file;
   call.run([&](Progress& progress) {
     file = read_surface(path, options);
@@ -77,10 +78,12 @@ void bind_surfaces(py::module_& module) {
   bind_report(module);
   module.def(
       "read", &read, py::arg("path"),
-      "read(path, *, weld=None, on_note=None) -> (positions, faces)\n\n"
+      "read(path, *, weld=None, repair=None, on_note=None) -> (positions, faces)\n\n"
       "A surface from PLY, OBJ, OFF or STL: float64 (n, 3) in the file's unit, int32 (m, 3). Polygons are cut\n"
       "into triangles. weld joins vertices within that share of the bounding box's diagonal, 0 to 0.01; 0 those\n"
-      "at the same place. Raises gsp.Error with the line or byte.");
+      "at the same place. repair=\"cut\" cuts apart edges of more than two faces, or of two that run the same way, "
+      "and\n"
+      "vertices of more than one fan. Raises gsp.Error with the line or byte.");
   module.def("write", &write, py::arg("path"), py::arg("positions"), py::arg("faces"),
              py::arg("comments") = std::vector<std::string>{},
              "Writes (n, 3) positions and (m, 3) faces as PLY, OBJ, OFF or STL by the ending; whole or not at all.");

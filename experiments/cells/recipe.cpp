@@ -16,6 +16,7 @@
 #include "experiments/cells/suggest.h"
 #include "experiments/cells/value_range.h"
 #include "mesh/read_file.h"
+#include "mesh/words.h"
 
 namespace gsp {
 
@@ -292,6 +293,14 @@ std::optional<double> weld(const toml::table& file) {
   return share;
 }
 
+Repair repair(const toml::table& file) {
+  const std::string word = text(file, "repair", repair_name(ReadOptions{}.repair));
+  const std::vector<std::string> words = words_of(kRepairs, repair_name);
+  if (std::find(words.begin(), words.end(), word) == words.end())
+    refuse(fmt::format("repair is none of {}", fmt::join(words, ", ")), line_of(*file.get("repair")));
+  return repair_of(word);
+}
+
 toml::table parse(const std::string& path) {
   try {
     return toml::parse(read_text(path), path);
@@ -346,8 +355,9 @@ Recipe recipe_of(const toml::table& file, const std::string& path, const RecipeO
   Recipe recipe;
   recipe.name = text(file, "name", std::filesystem::path(path).stem().string());
   recipe.description = text(file, "description", "");
-  require_known_keys(file, {"models", "name", "description", "block", "external", "weld"});
+  require_known_keys(file, {"models", "name", "description", "block", "external", "weld", "repair"});
   recipe.read.weld = weld(file);
+  recipe.read.repair = repair(file);
   const std::vector<const toml::table*> blocks = tables(file, "block");
   if (blocks.empty()) add_block(recipe, nullptr, file, 1, overrides);
   for (const toml::table* block : blocks) {

@@ -35,6 +35,7 @@ struct RecipeOverrides {
 ///     description = "..."
 ///     models = ["data/*.off", "shape:torus"]   # files by pattern, folders, generated shapes
 ///     weld = "exact"                     # or a share of the diagonal: which vertices of the surfaces are joined
+///     repair = "cut"                     # or none: whether surfaces are cut apart where they are no manifolds
 ///     gamma = [0, 1, 2]                  # any axis of cell_options.h: one value, a list of them, or a range:
 ///     mu = { from = 0, to = 2, step = 0.5 }         # also { from, to, steps } and { from, to, factor }
 ///     budgets = [1024, 4096]             # bytes; else 256, 512, 1024, ...

@@ -8,6 +8,7 @@
 #include "mesh/error.h"
 #include "mesh/halfedges.h"
 #include "mesh/read_file.h"
+#include "mesh/topology.h"
 
 namespace gsp {
 
@@ -19,7 +20,7 @@ struct Row {
 };
 
 /// The rows that hold anything.
-std::vector<Row> rows_of(const std::string& path, std::string_view text) {
+std::vector<Row> rows_of(std::string_view text) {
   std::vector<Row> rows;
   int line = 0;
   while (!text.empty()) {
@@ -35,8 +36,7 @@ std::vector<Row> rows_of(const std::string& path, std::string_view text) {
       const auto [after, failure] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
       const bool ends = after == rest.data() + rest.size() || std::string_view(" \t\r,").find(*after) < 4;
       if (failure != std::errc() || !ends || row.numbers.size() == 3)
-        throw Error(Cause::Malformed, path + ": a row of features holds two or three whole numbers", Element::Line,
-                    line);
+        throw Error(Cause::Malformed, "a row of features holds two or three whole numbers", Element::Line, line);
       row.numbers.push_back(number);
       rest.remove_prefix(after - rest.data());
     }
@@ -69,22 +69,20 @@ int halfedge_between(const Row& row, const Halfedges& halfedges) {
   throw Error(Cause::Malformed, "a feature names two vertices that no edge joins", Element::Line, row.line);
 }
 
-}  // namespace
-
-FeatureEdges read_features(const std::string& path, const Mesh& mesh) {
-  std::vector<Row> rows = rows_of(path, read_text(path));
+FeatureEdges features_of(const std::string& text, const Mesh& mesh) {
+  std::vector<Row> rows = rows_of(text);
   const Halfedges halfedges(mesh);
   const bool by_faces = !rows.empty() && rows.front().numbers.size() == 1;
   if (by_faces) {
     const int promised = rows.front().numbers[0], line = rows.front().line;
     rows.erase(rows.begin());
     if (promised < 0 || rows.size() != static_cast<std::size_t>(promised))
-      throw Error(Cause::Malformed, path + ": the number of features is not that of the rows", Element::Line, line);
+      throw Error(Cause::Malformed, "the number of features is not that of the rows", Element::Line, line);
   }
   FeatureEdges edges;
   for (const Row& row : rows) {
     if (row.numbers.size() != (by_faces ? 3u : 2u))
-      throw Error(Cause::Malformed, path + ": a row of features has another length", Element::Line, row.line);
+      throw Error(Cause::Malformed, "a row of features has another length", Element::Line, row.line);
     const int h = by_faces ? halfedge_of(row, mesh) : halfedge_between(row, halfedges);
     if (halfedges.twin[h] < 0) continue;
     edges.push_back(ascending(halfedges.from(h), halfedges.to(h)));
@@ -92,6 +90,18 @@ FeatureEdges read_features(const std::string& path, const Mesh& mesh) {
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
+}
+
+}  // namespace
+
+FeatureEdges read_features(const std::string& path, const Mesh& mesh) {
+  const std::string text = read_text(path);
+  require_parameterizable(mesh);
+  try {
+    return features_of(text, mesh);
+  } catch (const Error& error) {
+    throw error.within(path);
+  }
 }
 
 }  // namespace gsp

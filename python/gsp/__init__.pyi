@@ -272,6 +272,7 @@ def read(
     path: str,
     *,
     weld: float | None = None,
+    repair: Literal["none", "cut"] | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
     on_note: Note | None = None,

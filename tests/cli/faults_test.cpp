@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
@@ -5,7 +6,10 @@
 #include <string>
 
 #include "cli.h"
+#include "mesh/edge.h"
+#include "mesh/features/features.h"
 #include "mesh/io.h"
+#include "mesh/read_file.h"
 #include "mesh/shapes.h"
 #include "mesh/weld.h"
 #include "process.h"
@@ -69,6 +73,63 @@ TEST_CASE("info says what a weld would close and how to ask for it; every comman
   for (const char* command : {"curve", "encode", "picture", "info", "parameterize", "distance"})
     CHECK(contains(gsp_run({command, "--help"}).out, "--weld"));
   for (const char* weld : {"-1", "0.5", "nan", "near"}) CHECK(gsp_run({"info", soup, "--weld", weld}).status == 2);
+}
+
+TEST_CASE("surfaces that are no manifolds are refused, and cut apart on request through the whole chain") {
+  const TemporaryFolder folder;
+  // Two boxes that share an edge, and a wall on one of them: closed parts and an open one.
+  Mesh mesh = weld(shapes::twice(shapes::box(3), {1, 1, 0}), 0.0).mesh;
+  const int closed = mesh.vertex_count();
+  mesh.positions.push_back({0.5, 0.5, 2});
+  const int corner = mesh.faces[0][0], next = mesh.faces[0][1];
+  mesh.faces.push_back({corner, next, closed});
+  const std::string surface = folder.file("parts.ply");
+  write_mesh(surface, mesh);
+  const json report = info(surface);
+  CHECK(report["usable"] == false);
+  CHECK(report["repair"]["cut_edges"] == 8 + 1);
+  CHECK(report["repair"]["usable_then"] == true);
+  CHECK(report["repair"]["asked_for_by"] == "--repair cut");
+  CHECK(contains(gsp_run({"info", surface}).out, "--repair cut"));
+  const json cut = info(surface, {"--repair", "cut"});
+  CHECK(cut["usable"] == true);
+  CHECK(cut["components"] == 3);
+  CHECK(cut["boundary_edges"] == 3);
+  CHECK(cut["repair"]["cut_edges"] == 9);
+  CHECK(cut["repair"]["cut_vertices"] == report["repair"]["cut_vertices"]);
+  CHECK(cut["repair"]["added_vertices"] == 9 + 2);
+  CHECK(cut["notes"].size() == 1);
+
+  const std::string map = folder.file("a.param.ply"), remeshed = folder.file("a.sr.ply"), stream = folder.file("a.pgc"),
+                    decoded = folder.file("b.sr.ply");
+  CHECK(gsp_run({"parameterize", surface, "-o", map, "--base-vertices", "30"}).status == 3);
+  const std::vector<std::string> parameterize = {"parameterize", surface,           "-o", map,       "--repair",
+                                                 "cut",          "--base-vertices", "30", "--check", "--json"};
+  const Ran made = gsp_run(parameterize);
+  REQUIRE(made.status == 0);
+  CHECK(json::parse(made.out)["edges_cut_apart"] == 9);
+  CHECK(contains(made.err, "9 edges and"));
+  REQUIRE(gsp_run({"remesh", map, "-o", remeshed, "--level", "3"}).status == 0);
+  REQUIRE(gsp_run({"encode", remeshed, "-o", stream}).status == 0);
+  REQUIRE(gsp_run({"decode", stream, "-o", decoded}).status == 0);
+  CHECK(info(decoded)["components"] == 3);
+  CHECK(info(decoded)["boundary_loops"] == 1);
+  const Ran distance = gsp_run({"distance", surface, decoded, "--repair", "cut", "--samples", "20000", "--json"});
+  REQUIRE(distance.status == 0);
+  CHECK(json::parse(distance.out)["psnr_db"] > 50.0);
+  for (const char* command : {"curve", "encode", "picture", "info", "parameterize", "distance"})
+    CHECK(contains(gsp_run({command, "--help"}).out, "--repair"));
+  CHECK(gsp_run({"info", surface, "--repair", "glue"}).status == 2);
+
+  // A manifold stays the same bytes.
+  write_mesh(folder.file("torus.ply"), shapes::torus(16, 8));
+  std::vector<std::string> maps;
+  for (const char* repair : {"none", "cut"}) {
+    REQUIRE(gsp_run({"parameterize", folder.file("torus.ply"), "-o", map, "--repair", repair, "--base-vertices", "12"})
+                .status == 0);
+    maps.push_back(read_file(map));
+  }
+  CHECK(maps[0] == maps[1]);
 }
 
 TEST_CASE("faults: corners that were rounded are named with the weld that joins them") {
@@ -201,4 +262,50 @@ TEST_CASE("commands that solve nothing do with little address space") {
     INFO(arguments);
     CHECK(gsp_process(arguments, folder, address_space(200000)).status == 0);
   }
+}
+
+TEST_CASE("features of a file become creases, and a file that names what is not there is refused with its line") {
+  const TemporaryFolder folder;
+  const Mesh box = shapes::box(3);
+  const std::string surface = folder.file("box.ply"), features = folder.file("box.sharp"),
+                    map = folder.file("a.param.ply");
+  write_mesh(surface, box);
+  const auto made = [&](const std::string& text) {
+    std::ofstream(features, std::ios::binary) << text;
+    return gsp_run({"parameterize", surface, "-o", map, "--features-file", features, "--base-vertices", "40", "--json",
+                    "--check"});
+  };
+  // All twelve edges of the box, in both forms.
+  std::string sharp, pairs;
+  const FeatureEdges edges = edges_sharper_than(box, 80.0);
+  for (int f = 0; f < box.face_count(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const int a = box.faces[f][k], b = box.faces[f][(k + 1) % 3];
+      if (std::binary_search(edges.begin(), edges.end(), ascending(a, b)) && a < b) {
+        sharp += "1," + std::to_string(f) + "," + std::to_string(k) + "\n";
+        pairs += std::to_string(a) + " " + std::to_string(b) + "\n";
+      }
+    }
+  for (const std::string& text : {std::to_string(edges.size()) + "\n" + sharp, pairs}) {
+    const Ran ran = made(text);
+    REQUIRE(ran.status == 0);
+    const json report = json::parse(ran.out);
+    CHECK(report["feature_edges"] == edges.size());
+    CHECK(report["feature_curves"] == 12);
+    CHECK(report["creases"] >= 12);
+  }
+  CHECK(json::parse(made("").out)["creases"] == 0);
+  const auto refused = [&](const std::string& text, int line) {
+    const Ran ran = made(text);
+    CHECK(ran.status == 3);
+    const json error = json::parse(ran.out)["error"];
+    CHECK(contains(error["message"].get<std::string>(), features));
+    CHECK(error["index"] == line);
+    CHECK(error["element"] == "line");
+  };
+  refused("1\n1,99999,0\n", 2);
+  refused("1\n1,0,3\n", 2);
+  refused(pairs.substr(0, pairs.find('\n')) + "\n\n0 99999\n", 3);
+  refused("5\n1,0,0\n", 1);
+  refused("0 1 2 3\n", 1);
 }

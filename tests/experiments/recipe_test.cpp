@@ -211,6 +211,9 @@ TEST_CASE("blocks that spell one surface differently mean one model") {
 }
 
 TEST_CASE("a recipe says which vertices of its surfaces are joined, and may begin with a byte order mark") {
+  CHECK(recipe_of("models = [\"shape:torus\"]\n").read.repair == Repair::None);
+  CHECK(recipe_of("models = [\"shape:torus\"]\nrepair = \"cut\"\n").read.repair == Repair::Cut);
+  CHECK(says(refusal("repair = \"glue\""), "repair is none of none, cut"));
   CHECK_FALSE(recipe_of("models = [\"shape:torus\"]\n").read.weld.has_value());
   CHECK(recipe_of("models = [\"shape:torus\"]\nweld = \"exact\"\n").read.weld == 0.0);
   CHECK(recipe_of("models = [\"shape:torus\"]\nweld = 1e-6\n").read.weld == 1e-6);

@@ -50,6 +50,18 @@ def test_whole_chain_is_that_of_the_program(chain):
     assert gsp.header_bytes(stream) < 700
 
 
+def test_surfaces_that_are_no_manifolds_are_read_cut_apart(tmp_path):
+    positions = np.vstack([np.eye(3), -np.eye(3)])
+    gsp.write(str(tmp_path / "book.off"), positions, [[0, 1, 2], [0, 1, 3], [1, 0, 4]])
+    path, notes = str(tmp_path / "book.off"), []
+    assert not gsp.topology(*gsp.read(path)).usable
+    cut, faces = gsp.read(path, repair="cut", on_note=notes.append)
+    assert len(cut) == 6 + 4 and gsp.topology(cut, faces).usable
+    assert any("1 edges and 2 vertices" in note for note in notes)
+    with pytest.raises(gsp.Error):
+        gsp.read(path, repair="glue")
+
+
 def test_measures_are_those_of_the_program(chain):
     import json
 
