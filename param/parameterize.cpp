@@ -24,6 +24,7 @@
 #include "param/simplify/simplify.h"
 #include "param/stages/linear_map.h"
 #include "param/stages/smooth_levels.h"
+#include "param/stages/valid_map.h"
 
 namespace gsp {
 
@@ -32,9 +33,10 @@ namespace {
 // An automatic base is taken to have a vertex for so many of the surface, but of a finely sampled one at most so many
 // times the root of their number: the sampling does not make it more detailed.
 constexpr double kAutomaticShare = 64.0, kAutomaticRoot = 3.0;
-constexpr int kPairPasses = 3;         // of the hybrid baseline; more bring it nearer to the global solution
-constexpr int kLargerLevel = 4;        // than the last level that could not be joined
-constexpr double kLongestEdge = 0.25;  // of the edge of an equilateral patch of mean area
+constexpr int kPairPasses = 3;    // of the hybrid baseline; more bring it nearer to the global solution
+constexpr int kLargerLevel = 4;   // than the last level that could not be joined
+constexpr int kOneLevel = 20000;  // vertices up to which a surface is made in one level before larger ones are tried
+constexpr double kLongestEdge = 0.25;                        // of the edge of an equilateral patch of mean area
 constexpr double kMostPerFace = 12.0, kMostPerPatch = 64.0;  // vertices added for it
 
 void check_options(const ParameterizeOptions& options) {
@@ -184,37 +186,39 @@ class Simplifications {
   std::optional<Levels> of_cut_, of_whole_;
 };
 
-/// What is wrong with a map, nothing where it is valid.
-std::optional<std::string> faults_of(const Parameterization& map) {
-  const MapCheck check = check_map(map);
-  if (check.valid()) return std::nullopt;
-  std::ostringstream text;
-  text << check.flipped_faces << " flipped faces, " << check.wrong_angle_vertices << " vertices with a wrong angle, "
-       << check.mismatched_edges << " mismatched edges, " << check.torn_edges << " torn edges, "
-       << check.misplaced_vertices << " vertices outside their chart, relative area error " << check.area_error;
-  return text.str();
+/// What the last level starts with in turn, where the levels cannot be joined: a small surface is made in one, since
+/// each try costs nearly as much; else larger ones, at the end as large as the surface.
+std::vector<int> larger_levels(int first, int whole) {
+  std::vector<int> levels;
+  if (first >= whole) return levels;
+  if (whole <= kOneLevel) levels.push_back(whole);
+  for (long long level = 1LL * kLargerLevel * first; level < whole; level *= kLargerLevel)
+    levels.push_back(static_cast<int>(level));
+  if (whole > kOneLevel) levels.push_back(whole);
+  return levels;
 }
 
-/// The map without folds that `make` has of the first simplification. Where its levels cannot be joined the last one is
-/// made larger, at the end as large as the surface. Nothing where that fails as well.
+/// The map without folds that `make` has of the first simplification, or with a larger last level where its levels
+/// cannot be joined. Nothing where none can be made; the last one may be invalid.
 std::optional<SmoothedMap> join_levels(const Levels& first, const ParameterizeOptions& options,
                                        const std::function<std::optional<SmoothedMap>(const SimplifyResult&)>& make,
                                        Progress& progress) {
   const int whole = first.surface->mesh.vertex_count();
-  int coarsest = first.coarsest;
   const auto why_not = [&](const std::optional<SmoothedMap>& map) -> std::optional<std::string> {
     const auto step = progress.step("check map");
-    if (!map) return "a vertex has no place";
-    return coarsest >= whole ? std::nullopt : faults_of(map->atlas.finish({}));
+    return map ? faults_of(map->atlas.finish({})) : "a vertex has no place";
   };
-  std::optional<SmoothedMap> map = make(first.simplified);
-  while (const auto why = why_not(map)) {
-    if (coarsest >= whole) return std::nullopt;
-    coarsest = std::min(whole, kLargerLevel * coarsest);
+  std::optional<SmoothedMap> map = make(first.simplified), last = map;
+  for (int coarsest : larger_levels(first.coarsest, whole)) {
+    const auto why = why_not(map);
+    if (!why) break;
     progress.note("the levels of the map could not be joined (" + *why + "); the last one starts with " +
                   std::to_string(coarsest) + " vertices instead");
     map = make(simplify(first.surface, options, coarsest, progress));
+    if (map) last = map;
   }
+  if (!map) map = std::move(last);
+  if (!map) return std::nullopt;
   const int added = map->atlas.surface->mesh.vertex_count() - whole;
   if (added > 0) progress.note(std::to_string(added) + " vertices were added where the map needs more freedom");
   return map;
@@ -305,10 +309,6 @@ Atlas baseline(Atlas atlas, Method method, const ParameterizeOptions& options, P
   return atlas;
 }
 
-void require_valid(const Parameterization& map) {
-  if (const auto faults = faults_of(map)) throw Error(Cause::InvalidMap, "the map is not valid: " + *faults);
-}
-
 /// Makes the map on the surface whole again, and tells of how it began.
 template <class Map>
 void close_map(const Atlas& atlas, const Begun<Map>& begun, ParameterizeResult& result) {
@@ -318,8 +318,9 @@ void close_map(const Atlas& atlas, const Begun<Map>& begun, ParameterizeResult& 
   result.omega = begun.omega;
 }
 
-ParameterizeResult finish(const Mesh& input, const Start& start, Method method, const ParameterizeOptions& options,
-                          Progress& progress) {
+/// `image`: the input in the coordinates that maps are made in.
+ParameterizeResult finish(const Mesh& input, const Mesh& image, const Start& start, Method method,
+                          const ParameterizeOptions& options, Progress& progress) {
   ParameterizeResult result;
   const auto step = progress.step(std::string("finish ") + method_name(method));
   if (method == Method::Gsp) {
@@ -327,7 +328,7 @@ ParameterizeResult finish(const Mesh& input, const Start& start, Method method, 
     if (options.objective == Objective::Linear) map = linear_map(map.atlas, options, progress);
     describe(map, start.smooth.base_vertices, result);
     close_map(map.atlas, start.smooth, result);
-    require_valid(result.map);
+    require_valid(result.map, image);
   } else {
     close_map(baseline(*start.maps.map, method, options, result, progress), start.maps, result);
   }
@@ -352,7 +353,7 @@ std::vector<ParameterizeResult> parameterize_all(const Mesh& mesh, const std::ve
   const Start start = make_start(image, features, methods, options, progress);
   std::vector<ParameterizeResult> results;
   for (Method method : methods) {
-    ParameterizeResult& result = results.emplace_back(finish(mesh, start, method, options, progress));
+    ParameterizeResult& result = results.emplace_back(finish(mesh, image, start, method, options, progress));
     scale_by_power_of_two(result.map.surface, size);
     if (!shortening.any()) continue;
     std::vector<Vec3>& positions = result.map.surface.positions;

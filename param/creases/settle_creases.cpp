@@ -10,10 +10,16 @@ namespace gsp {
 
 namespace {
 
-constexpr int kRings = 16;  // of the discs that are untangled
+constexpr int kRings = 16;     // of the discs that are untangled
 constexpr int kMostSteps = 24;
 constexpr double kShortestStep = 1.0 / 64.0;
 constexpr int kSweeps = 1;
+
+/// Tells whether no fold is left.
+bool untangle(Atlas& atlas, Progress& progress) {
+  return repair_folds(atlas, kRings, progress).none() ||
+         repair_folds(atlas, kRings, progress, UntangleToward::Equilateral).none();
+}
 
 }  // namespace
 
@@ -29,7 +35,7 @@ bool settle_creases(Atlas& atlas, Progress& progress) {
     for (int v = 0; v < static_cast<int>(goal.size()); ++v)
       if (seams.point_of(v) >= 0 && trial.patch[v] >= 0)
         trial.position[v] = step == 1.0 ? goal[v] : trial.position[v] + step * (goal[v] - trial.position[v]);
-    if (!repair_folds(trial, kRings, progress).none()) {
+    if (!untangle(trial, progress)) {
       step *= 0.5;
       continue;
     }

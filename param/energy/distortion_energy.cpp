@@ -89,6 +89,15 @@ std::array<Mode, 4> convex_modes(Complex j1, Complex j2, double area_weight) {
 
 }  // namespace
 
+namespace {
+constexpr double kLeastImage = 1e-12;  // area taken of faces whose images have none together
+
+double image_area(const Atlas& atlas, int face) {
+  const auto z = atlas.face_corners(face, atlas.face_frame(face));
+  return chart_area(z[0], z[1], z[2]);
+}
+}  // namespace
+
 std::vector<ReferenceShape> reference_shapes(const Atlas& atlas, const std::vector<int>& faces) {
   const Surface& surface = *atlas.surface;
   const Mesh& mesh = surface.mesh;
@@ -102,15 +111,22 @@ std::vector<ReferenceShape> reference_shapes(const Atlas& atlas, const std::vect
     const Eigen::Matrix2d inverse = shape.inverse();
     shapes.push_back({{inverse(0, 0), inverse(0, 1), inverse(1, 1)}, 0.5 * shape.determinant()});
     area += shapes.back().weight;
-    const auto z = atlas.face_corners(f, atlas.face_frame(f));
-    chart += chart_area(z[0], z[1], z[2]);
+    chart += image_area(atlas, f);
   }
-  const double scale = std::sqrt(std::max(chart, 1e-12) / area);
+  const double scale = std::sqrt(std::max(chart, kLeastImage) / area);
   for (ReferenceShape& shape : shapes) {
     for (double& entry : shape.inverse) entry /= scale;
     shape.weight /= area;
   }
   return shapes;
+}
+
+std::vector<ReferenceShape> equilateral_shapes(const Atlas& atlas, const std::vector<int>& faces) {
+  const double count = static_cast<double>(faces.size());
+  double chart = 0.0;
+  for (int f : faces) chart += image_area(atlas, f);
+  const double side = std::sqrt(std::max(chart, kLeastImage) / count / kChartArea), height = std::sqrt(0.75) * side;
+  return {faces.size(), {{1.0 / side, -0.5 / height, 1.0 / height}, 1.0 / count}};
 }
 
 DistortionEnergy::DistortionEnergy(const Atlas& atlas, const std::vector<int>& vertices, const std::vector<int>& faces,

@@ -22,6 +22,9 @@ struct ReferenceShape {
 /// O(faces).
 std::vector<ReferenceShape> reference_shapes(const Atlas& atlas, const std::vector<int>& faces);
 
+/// The same equilateral shape for each, together as large as their images in the map. #faces. O(faces).
+std::vector<ReferenceShape> equilateral_shapes(const Atlas& atlas, const std::vector<int>& faces);
+
 /// The energy of Garanzha et al. 2021 over some faces of a map: Σ A (|J|²/(2χ) + λ (det² + 1)/(2χ)), J the affine map
 /// from the surface's triangle (its `ReferenceShape`) to its image, A its share of the area, χ(ε) = (det + √(ε² +
 /// det²))/2. The first term is least for similarities, the second for equal areas. With ε = 0 it is finite for upright

@@ -46,8 +46,8 @@ void minimise(const DistortionEnergy& energy, double epsilon, int steps, std::ve
 
 class Repair {
  public:
-  Repair(Atlas& atlas, int most_rings, Progress& progress)
-      : atlas_(atlas), surface_(*atlas.surface), most_rings_(most_rings), progress_(progress) {}
+  Repair(Atlas& atlas, int most_rings, UntangleToward toward, Progress& progress)
+      : atlas_(atlas), surface_(*atlas.surface), most_rings_(most_rings), toward_(toward), progress_(progress) {}
 
   Folds run() {
     Folds folds = find_folds(atlas_);
@@ -78,6 +78,10 @@ class Repair {
     }
   }
 
+  std::vector<ReferenceShape> shapes(const std::vector<int>& faces) const {
+    return toward_ == UntangleToward::Surface ? reference_shapes(atlas_, faces) : equilateral_shapes(atlas_, faces);
+  }
+
   void untangle(const std::vector<int>& region) {
     std::vector<int> vertices;
     for (int v : region)
@@ -86,7 +90,7 @@ class Repair {
     const std::vector<int> faces = faces_around(surface_, vertices);
     std::vector<Complex> before;
     for (int v : vertices) before.push_back(atlas_.position[v]);
-    const DistortionEnergy energy(atlas_, vertices, faces, reference_shapes(atlas_, faces), kAreaWeight);
+    const DistortionEnergy energy(atlas_, vertices, faces, shapes(faces), kAreaWeight);
     std::vector<double> x = energy.positions(atlas_);
     if (!drive_apart(energy, x, kInnerSteps)) return;
     const std::vector<double> valid = x;
@@ -104,6 +108,7 @@ class Repair {
   Atlas& atlas_;
   const Surface& surface_;
   const int most_rings_;
+  const UntangleToward toward_;
   Progress& progress_;
 };
 
@@ -124,8 +129,8 @@ bool drive_apart(const DistortionEnergy& energy, std::vector<double>& x, int inn
   return least > 0.0 && energy.upright(x);
 }
 
-Folds repair_folds(Atlas& atlas, int most_rings, Progress& progress) {
-  return Repair(atlas, most_rings, progress).run();
+Folds repair_folds(Atlas& atlas, int most_rings, Progress& progress, UntangleToward toward) {
+  return Repair(atlas, most_rings, toward, progress).run();
 }
 
 }  // namespace gsp

@@ -208,3 +208,13 @@ TEST_CASE("with more of ε the energy is finite over folds, and drives them apar
   std::vector<double> y = hopeless.positions(crossed.torus.atlas);
   CHECK(drive_apart(hopeless, y, 50) == hopeless.upright(y));
 }
+
+TEST_CASE("equilateral shapes are as large as the images: on the lattice the shape of every face") {
+  const FlatTorus torus;
+  const std::vector<ReferenceShape> shapes = equilateral_shapes(torus.atlas, torus.faces);
+  REQUIRE(shapes.size() == torus.shapes.size());
+  for (std::size_t f = 0; f < shapes.size(); ++f) {
+    for (int k = 0; k < 3; ++k) CHECK(shapes[f].inverse[k] == Approx(torus.shapes[f].inverse[k]));
+    CHECK(shapes[f].weight == Approx(torus.shapes[f].weight));
+  }
+}

@@ -1,11 +1,14 @@
 #include <sys/resource.h>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <ctime>
 
+#include "mesh/error.h"
 #include "mesh/topology.h"
 #include "param/atlas/split_edges.h"
 #include "param/parameterize.h"
+#include "param/stages/valid_map.h"
 #include "tests/support/thin_shapes.h"
 
 using namespace gsp;
@@ -55,4 +58,53 @@ TEST_CASE("splitting long edges keeps to the vertices it may add, and says how l
   }
   Mesh mesh = thin_shapes::triangle(1.0);
   CHECK(split_long_edges(mesh, 0.1, 0).added() == 0);
+}
+
+TEST_CASE("a refused map names the face of the input in which its first fault lies", "[thin]") {
+  const Mesh input = thin_shapes::box(10.0, 1.0, 1.0);
+  Progress progress;
+  Parameterization map = parameterize(input, {}, progress).map;
+  REQUIRE(map.surface.face_count() > input.face_count());
+  REQUIRE_NOTHROW(require_valid(map, input));
+  // A face on the side x = 0 is turned over. The input has two faces there.
+  const auto at_side = [](const Mesh& mesh, int f) {
+    const Triangle& t = mesh.faces[f];
+    return std::all_of(t.begin(), t.end(), [&](int v) { return mesh.positions[v].x() == mesh.positions[t[0]].x(); });
+  };
+  int turned = 0;
+  while (!at_side(map.surface, turned)) ++turned;
+  const double side = map.surface.positions[map.surface.faces[turned][0]].x();
+  std::swap(map.face_corners[turned][0], map.face_corners[turned][1]);
+  try {
+    require_valid(map, input);
+    FAIL("a map with a fold was taken");
+  } catch (const Error& error) {
+    CHECK(error.cause() == Cause::InvalidMap);
+    REQUIRE(error.element() == Element::Face);
+    const int named = static_cast<int>(*error.index());
+    REQUIRE(named < input.face_count());
+    CHECK(at_side(input, named));
+    CHECK(input.positions[input.faces[named][0]].x() == side);
+  }
+}
+
+TEST_CASE("a small surface whose levels cannot be joined is made in one level at once", "[thin][slow]") {
+  constexpr int kSides = 1000;  // of a closed cylinder: z = 0, then z = 1, then the middles of the ends
+  Mesh mesh;
+  for (double z : {0.0, 1.0})
+    for (int i = 0; i < kSides; ++i) {
+      const double angle = 2.0 * std::acos(-1.0) * i / kSides;
+      mesh.positions.emplace_back(std::cos(angle), std::sin(angle), z);
+    }
+  mesh.positions.insert(mesh.positions.end(), {Vec3(0.0, 0.0, 0.0), Vec3(0.0, 0.0, 1.0)});
+  for (int i = 0, n = kSides; i < n; ++i) {
+    const int j = (i + 1) % n;
+    const Triangle around[] = {{i, j, n + j}, {i, n + j, n + i}, {2 * n, j, i}, {2 * n + 1, n + i, n + j}};
+    mesh.faces.insert(mesh.faces.end(), std::begin(around), std::end(around));
+  }
+  int tries = 0;
+  Progress progress;
+  progress.on_note([&](const std::string& note) { tries += note.find("not be joined") != std::string::npos; });
+  CHECK(check_map(parameterize(mesh, {}, progress).map).valid());
+  CHECK(tries <= 1);
 }

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "param/map/parameterization.h"
+
+namespace gsp {
+
+/// What `check_map` finds wrong with a map, as a sentence; nothing where it is valid.
+std::optional<std::string> faults_of(const Parameterization& map);
+
+/// Throws Error(InvalidMap) where a map is not valid. Its place is the face of `input` in which the first fault lies:
+/// the surface as it was before edges were split, in the coordinates of the map's. O(faces).
+void require_valid(const Parameterization& map, const Mesh& input);
+
+}  // namespace gsp
