@@ -10,7 +10,7 @@ namespace gsp {
 
 namespace {
 
-constexpr int kRings = 16;     // of the discs that are untangled
+constexpr int kRings = 16;  // of the discs that are untangled
 constexpr int kMostSteps = 24;
 constexpr double kShortestStep = 1.0 / 64.0;
 constexpr int kSweeps = 1;
