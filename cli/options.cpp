@@ -276,6 +276,9 @@ void Command::parameterize_options(ParameterizeOptions& options) {
   axis_word("priority", &CellOptions::parameterize, options,
             "order of the vertex removals: by the cost, or MAPS' own, independent sets by area and curvature (wants a "
             "number of base vertices)");
+  axis_integer(
+      "tries", options.tries,
+      "bases to try, of which the one is kept whose coarsest level has the least distortion once it is smooth");
   axis_word("features", &CellOptions::parameterize, options,
             "curves of sharp edges that become chains of base edges: found by themselves, or edges at N degrees and "
             "over; none for the paper's map, which runs across them");

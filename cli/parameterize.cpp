@@ -72,6 +72,7 @@ int run_parameterize(ParameterizeArguments& options, Context& context) {
                  {"corners", corners_name(options.parameterize.corners)},
                  {"base_edges", base_edges_name(options.parameterize.base_edges)},
                  {"priority", priority_name(options.parameterize.priority)},
+                 {"tries", options.parameterize.tries},
                  {"replicate", options.parameterize.replicate},
                  {"base_vertices", result.map.base.vertex_count()},
                  {"base_faces", result.map.base.face_count()},

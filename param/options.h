@@ -114,6 +114,10 @@ struct ParameterizeOptions {
   /// vertex removals by a factor of its own, at most 1e-4 from 1, and so decides otherwise where chance decides. Change
   /// it to learn how much of a result is chance.
   int replicate = 0;
+  /// Bases to try, 1 to kMostTries, of which the one is kept whose coarsest level has the least distortion once it is
+  /// smooth (param/stages/try_bases.h). More than 1 for a little less distortion at that many times the simplification.
+  int tries = 1;
+  static constexpr int kMostTries = 64;
   int relaxations = 4;  ///< at most so many corner relaxations between solves, >= 0; it ends when no corner moves
 };
 

@@ -24,6 +24,7 @@
 #include "param/simplify/simplify.h"
 #include "param/stages/linear_map.h"
 #include "param/stages/smooth_levels.h"
+#include "param/stages/try_bases.h"
 #include "param/stages/valid_map.h"
 
 namespace gsp {
@@ -49,6 +50,8 @@ void check_options(const ParameterizeOptions& options) {
                 "the paper's stop is about the order of Ω: MAPS' priority needs a number of base vertices");
   if (!(options.gamma >= 0.0) || !(options.mu >= 0.0))
     throw Error(Cause::BadOption, "gamma and mu must not be negative");
+  if (options.tries < 1 || options.tries > ParameterizeOptions::kMostTries)
+    throw Error(Cause::BadOption, "the number of bases to try must be 1 to 64");
   if (options.replicate < 0) throw Error(Cause::BadOption, "the number of the replicate must not be negative");
   if (options.feature_degrees < kAutoFeatures || options.feature_degrees > 179)
     throw Error(Cause::BadOption, "the angle of features must be 1 to 179 degrees, none or found by itself");
@@ -76,6 +79,7 @@ std::vector<std::string> provenance(const Mesh& input, const ParameterizeOptions
                                     line("input_faces", input.face_count())};
   if (!base.creases.empty()) lines.push_back(line("creases", base.creases.size()));
   if (options.priority == Priority::Maps) lines.push_back(line("priority", priority_name(options.priority)));
+  if (options.tries > 1) lines.push_back(line("tries", options.tries));
   if (options.replicate > 0) lines.push_back(line("replicate", options.replicate));
   return lines;
 }
@@ -139,12 +143,12 @@ Mesh refined(Mesh mesh, FeatureEdges& features, const ParameterizeOptions& optio
 struct Levels {
   std::shared_ptr<const Surface> surface;
   int coarsest;
-  SimplifyResult simplified;
+  TriedBase base;
 };
 
 void note_base(const Levels& levels, const ParameterizeOptions& options, Progress& progress) {
   const Surface& surface = *levels.surface;
-  const int left = surface.seams.count_whole(remaining_vertices(surface, levels.simplified.removals));
+  const int left = surface.seams.count_whole(remaining_vertices(surface, levels.base.simplified.removals));
   if (options.base_vertices > 0 && left > options.base_vertices)
     progress.note("no further vertex can be removed: the base has " + std::to_string(left) + " vertices instead of " +
                   std::to_string(options.base_vertices));
@@ -153,8 +157,8 @@ void note_base(const Levels& levels, const ParameterizeOptions& options, Progres
 Levels make_levels(std::shared_ptr<const Surface> surface, const ParameterizeOptions& options, Progress& progress) {
   const auto step = progress.step("simplify");
   const int coarsest = coarsest_level(*surface, options);
-  SimplifyResult simplified = simplify(surface, options, coarsest, progress);
-  Levels levels = {std::move(surface), coarsest, std::move(simplified)};
+  TriedBase base = best_base(surface, options, coarsest, progress);
+  Levels levels = {std::move(surface), coarsest, std::move(base)};
   note_base(levels, options, progress);
   return levels;
 }
@@ -200,7 +204,7 @@ std::vector<int> larger_levels(int first, int whole) {
 
 /// The map without folds that `make` has of the first simplification, or with a larger last level where its levels
 /// cannot be joined. Nothing where none can be made; the last one may be invalid.
-std::optional<SmoothedMap> join_levels(const Levels& first, const ParameterizeOptions& options,
+std::optional<SmoothedMap> join_levels(const Levels& first,
                                        const std::function<std::optional<SmoothedMap>(const SimplifyResult&)>& make,
                                        Progress& progress) {
   const int whole = first.surface->mesh.vertex_count();
@@ -208,13 +212,13 @@ std::optional<SmoothedMap> join_levels(const Levels& first, const ParameterizeOp
     const auto step = progress.step("check map");
     return map ? faults_of(map->atlas.finish({})) : "a vertex has no place";
   };
-  std::optional<SmoothedMap> map = make(first.simplified), last = map;
+  std::optional<SmoothedMap> map = make(first.base.simplified), last = map;
   for (int coarsest : larger_levels(first.coarsest, whole)) {
     const auto why = why_not(map);
     if (!why) break;
     progress.note("the levels of the map could not be joined (" + *why + "); the last one starts with " +
                   std::to_string(coarsest) + " vertices instead");
-    map = make(simplify(first.surface, options, coarsest, progress));
+    map = make(simplify(first.surface, first.base.options, coarsest, progress));
     if (map) last = map;
   }
   if (!map) map = std::move(last);
@@ -235,17 +239,17 @@ void set_map(Begun<SmoothedMap>& begun, const Levels& levels, const Parameterize
     begun.base_vertices = remaining_vertices(*levels.surface, simplified.removals);
     return smooth_levels(simplified, smoothing, progress);
   };
-  begun.map = join_levels(levels, options, make, progress);
+  begun.map = join_levels(levels, make, progress);
 }
 
 /// The same for MAPS' map, whose vertices on feature curves go to their places, so that the map can be glued.
-void set_map(Begun<Atlas>& begun, const Levels& levels, const ParameterizeOptions& options, Progress& progress) {
+void set_map(Begun<Atlas>& begun, const Levels& levels, const ParameterizeOptions&, Progress& progress) {
   const auto make = [](const SimplifyResult& simplified) -> std::optional<SmoothedMap> {
     const std::optional<OverlayMap> maps = maps_overlay(simplified);
     if (!maps) return std::nullopt;
     return SmoothedMap{maps->coarsened().atlas, {}};
   };
-  const std::optional<SmoothedMap> maps = join_levels(levels, options, make, progress);
+  const std::optional<SmoothedMap> maps = join_levels(levels, make, progress);
   if (!maps) return;
   begun.map = maps->atlas;
   if (!settle_creases(*begun.map, progress)) begun.map.reset();
@@ -267,7 +271,7 @@ Begun<Map> begin_map(Simplifications& simplifications, const ChosenFeatures& fea
   begun.features = features;
   if (simplifications.cut()) {
     begun.cut = simplifications.cut();
-    begun.omega = simplifications.of_cut().simplified.omega;
+    begun.omega = simplifications.of_cut().base.simplified.omega;
     set_map(begun, simplifications.of_cut(), options, progress);
     if (begun.map) return begun;
     progress.note("no map of the surface with its feature curves could be made: it is made without them");
@@ -275,7 +279,7 @@ Begun<Map> begin_map(Simplifications& simplifications, const ChosenFeatures& fea
     begun.features.edges.clear();
     begun.cut.reset();
   }
-  begun.omega = simplifications.of_whole().simplified.omega;
+  begun.omega = simplifications.of_whole().base.simplified.omega;
   set_map(begun, simplifications.of_whole(), options, progress);
   if (!begun.map) throw Error(Cause::InvalidMap, "no map of the surface could be made: its levels cannot be joined");
   return begun;

@@ -83,16 +83,36 @@ std::optional<EditableAtlas> put_back(const RemovalRecord& level, const Editable
   return reinsert(level, map);
 }
 
-}  // namespace
+/// A map that can still be changed, and how it was made.
+struct EditableMap {
+  EditableAtlas map;
+  SmoothingRecord record;
+};
 
-std::optional<SmoothedMap> smooth_levels(const SimplifyResult& simplified, const ParameterizeOptions& options,
-                                         Progress& progress) {
-  auto coarsest = progress.step("coarsest level");
+std::optional<EditableMap> begin_coarsest(const SimplifyResult& simplified, const ParameterizeOptions& options,
+                                          Progress& progress) {
+  const auto step = progress.step("coarsest level");
   EditableAtlas map = simplified.map->coarsened();
   map.atlas.reassign_all();
   if (!settle_creases(map.atlas, progress)) return std::nullopt;
   const SmoothingRecord record = smooth_coarsest(map, options, simplified.finer.empty(), progress);
-  coarsest.end();
+  return EditableMap{std::move(map), record};
+}
+
+}  // namespace
+
+std::optional<SmoothedMap> smooth_coarsest_level(const SimplifyResult& simplified, const ParameterizeOptions& options,
+                                                 Progress& progress) {
+  std::optional<EditableMap> coarsest = begin_coarsest(simplified, options, progress);
+  if (!coarsest) return std::nullopt;
+  return SmoothedMap{std::move(coarsest->map.atlas), coarsest->record};
+}
+
+std::optional<SmoothedMap> smooth_levels(const SimplifyResult& simplified, const ParameterizeOptions& options,
+                                         Progress& progress) {
+  std::optional<EditableMap> coarsest = begin_coarsest(simplified, options, progress);
+  if (!coarsest) return std::nullopt;
+  EditableAtlas map = std::move(coarsest->map);
   for (auto level = simplified.finer.rbegin(); level != simplified.finer.rend(); ++level) {
     const auto finer = progress.step("finer levels");
     std::optional<EditableAtlas> more = put_back(*level, map, progress);
@@ -101,7 +121,7 @@ std::optional<SmoothedMap> smooth_levels(const SimplifyResult& simplified, const
     if (!settle_creases(map.atlas, progress)) return std::nullopt;
     smooth_finer(map, options, progress);
   }
-  return SmoothedMap{std::move(map.atlas), record};
+  return SmoothedMap{std::move(map.atlas), coarsest->record};
 }
 
 }  // namespace gsp

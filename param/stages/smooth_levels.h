@@ -17,4 +17,8 @@ namespace gsp {
 std::optional<SmoothedMap> smooth_levels(const SimplifyResult& simplified, const ParameterizeOptions& options,
                                          Progress& progress);
 
+/// The same of the coarsest level alone, whose surface is what the finer ones left.
+std::optional<SmoothedMap> smooth_coarsest_level(const SimplifyResult& simplified, const ParameterizeOptions& options,
+                                                 Progress& progress);
+
 }  // namespace gsp
