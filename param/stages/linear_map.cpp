@@ -2,6 +2,7 @@
 
 #include "param/atlas/best_map.h"
 #include "param/atlas/folds.h"
+#include "param/atlas/mend_charts.h"
 #include "param/corners/descend_corners.h"
 #include "param/corners/relax_corners.h"
 #include "param/energy/untangle.h"
@@ -51,6 +52,8 @@ SmoothedMap linear_map(const Atlas& injective, const ParameterizeOptions& option
   Atlas atlas = solve_and_relax(injective, options, record, progress);
   if (repair_folds(atlas, kUntangledRings, progress).none()) {
     atlas.reassign_all();
+    // A solution that folds about a corner has carried vertices beyond it, into charts of another sector.
+    mend_charts(atlas);
     return {std::move(atlas), record};
   }
   atlas = injective;
