@@ -345,7 +345,13 @@ Attempt Flipper::attempt(Atlas& atlas, const FlipSite& site) const {
   std::vector<int> moved = members_[site.faces[0]];
   moved.insert(moved.end(), members_[site.faces[1]].begin(), members_[site.faces[1]].end());
   const double goal = isometric + kWorthwhile * (before - isometric);
-  if (flip(atlas, site, moved, *ways) && lower_to(atlas, goal, free, faces))
+  // An edge may pass through the rhombus, and be turned by the flip, between vertices that the smoothing does not
+  // reach.
+  const auto stays = [&](const Way& way) {
+    return local_map(atlas, way.start) == LocalMap::Injective && local_map(atlas, way.end) == LocalMap::Injective;
+  };
+  if (flip(atlas, site, moved, *ways) && lower_to(atlas, goal, free, faces) &&
+      std::all_of(ways->begin(), ways->end(), stays))
     made.flipped.emplace(atlas, site, made.inside, made.edges);
   unflipped.restore(atlas);
   return made;

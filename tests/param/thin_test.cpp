@@ -26,6 +26,23 @@ double peak_megabytes() {
   return usage.ru_maxrss / 1024.0;
 }
 
+/// A closed cylinder whose ends are fans: the rim z = 0, the rim z = 1, then the middles of the ends.
+Mesh fanned_cylinder(int sides) {
+  Mesh mesh;
+  for (double z : {0.0, 1.0})
+    for (int i = 0; i < sides; ++i) {
+      const double angle = 2.0 * std::acos(-1.0) * i / sides;
+      mesh.positions.emplace_back(std::cos(angle), std::sin(angle), z);
+    }
+  mesh.positions.insert(mesh.positions.end(), {Vec3(0.0, 0.0, 0.0), Vec3(0.0, 0.0, 1.0)});
+  for (int i = 0, n = sides; i < n; ++i) {
+    const int j = (i + 1) % n;
+    const Triangle around[] = {{i, j, n + j}, {i, n + j, n + i}, {2 * n, j, i}, {2 * n + 1, n + i, n + j}};
+    mesh.faces.insert(mesh.faces.end(), std::begin(around), std::end(around));
+  }
+  return mesh;
+}
+
 }  // namespace
 
 TEST_CASE("thin surfaces get a valid map in bounded time, memory and number of vertices", "[thin][slow]") {
@@ -89,22 +106,18 @@ TEST_CASE("a refused map names the face of the input in which its first fault li
 }
 
 TEST_CASE("a small surface whose levels cannot be joined is made in one level at once", "[thin][slow]") {
-  constexpr int kSides = 1000;  // of a closed cylinder: z = 0, then z = 1, then the middles of the ends
-  Mesh mesh;
-  for (double z : {0.0, 1.0})
-    for (int i = 0; i < kSides; ++i) {
-      const double angle = 2.0 * std::acos(-1.0) * i / kSides;
-      mesh.positions.emplace_back(std::cos(angle), std::sin(angle), z);
-    }
-  mesh.positions.insert(mesh.positions.end(), {Vec3(0.0, 0.0, 0.0), Vec3(0.0, 0.0, 1.0)});
-  for (int i = 0, n = kSides; i < n; ++i) {
-    const int j = (i + 1) % n;
-    const Triangle around[] = {{i, j, n + j}, {i, n + j, n + i}, {2 * n, j, i}, {2 * n + 1, n + i, n + j}};
-    mesh.faces.insert(mesh.faces.end(), std::begin(around), std::end(around));
-  }
   int tries = 0;
   Progress progress;
   progress.on_note([&](const std::string& note) { tries += note.find("not be joined") != std::string::npos; });
-  CHECK(check_map(parameterize(mesh, {}, progress).map).valid());
+  CHECK(check_map(parameterize(fanned_cylinder(1000), {}, progress).map).valid());
   CHECK(tries <= 1);
+}
+
+TEST_CASE("a flip that folds a face whose edges pass through its patches from beyond them is not made", "[thin]") {
+  // Edges of the wall are as long as the cylinder: with 300 sides three faces were folded.
+  ParameterizeOptions options;
+  options.feature_degrees = kNoFeatures;
+  options.base_vertices = 20;
+  Progress progress;
+  CHECK(check_map(parameterize(fanned_cylinder(300), options, progress).map).valid());
 }
