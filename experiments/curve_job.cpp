@@ -6,9 +6,11 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <set>
 
 #include "experiments/cells/models.h"
 #include "experiments/curve/curve_csv.h"
+#include "experiments/output/earlier_run.h"
 #include "experiments/output/quoting.h"
 #include "experiments/plot/plot.h"
 #include "mesh/atomic_file.h"
@@ -43,10 +45,12 @@ class Job {
   Job(std::string folder, const ReadOptions& read, const CurveOptions& options, Progress& progress)
       : folder_(std::move(folder)), read_(read), options_(options), progress_(progress) {
     make_folder(folder_);
+    stems_ = stems_of_earlier_run(folder_);
   }
 
   void add(const std::string& surface, const std::string& model) {
     const auto start = std::chrono::steady_clock::now();
+    stems_.insert(file_stem(model));
     Progress progress = progress_.within(model);
     CurveRun run;
     CurveSummary summary;
@@ -82,6 +86,13 @@ class Job {
     save_points({});
     made("curve.csv");
     if (panels_.size() > 1) draw(result_.models.back(), "overview", panels_);
+    std::vector<std::string> stale = figure_files("overview");
+    for (const std::string& stem : stems_) {
+      const std::vector<std::string> figure = figure_files(stem);
+      stale.insert(stale.end(), figure.begin(), figure.end());
+      stale.push_back(stem + "-omega.csv");
+    }
+    remove_stale(folder_, stale, result_.files);
     return std::move(result_);
   }
 
@@ -108,6 +119,7 @@ class Job {
   std::vector<CurvePoint> finished_;
   std::vector<PlotPanel> panels_;
   CurveJobResult result_;
+  std::set<std::string> stems_;  ///< of this run and of an earlier one in the folder
 };
 
 }  // namespace

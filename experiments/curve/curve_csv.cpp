@@ -66,4 +66,13 @@ void write_curve_csv(const std::string& path, const std::vector<CurvePoint>& poi
   file.commit();
 }
 
+std::set<std::string> stems_of_earlier_run(const std::string& folder) {
+  std::set<std::string> stems;
+  try {
+    for (const CurvePoint& point : read_curve_csv(folder + "/curve.csv")) stems.insert(file_stem(point.model));
+  } catch (const Error&) {  // none, or another's
+  }
+  return stems;
+}
+
 }  // namespace gsp

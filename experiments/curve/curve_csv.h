@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,5 +15,9 @@ void write_curve_csv(const std::string& path, const std::vector<CurvePoint>& poi
 /// Reads what `write_curve_csv` wrote, by the names of the columns; others are left alone, and a missing one is an
 /// error. Throws Error: CannotOpen; Malformed with the line.
 std::vector<CurvePoint> read_curve_csv(const std::string& path);
+
+/// The surfaces of the curve.csv that an earlier run left in a folder, each once, as file names (`file_stem`). None
+/// where there is no such table.
+std::set<std::string> stems_of_earlier_run(const std::string& folder);
 
 }  // namespace gsp

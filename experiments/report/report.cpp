@@ -13,6 +13,7 @@
 #include "experiments/curve/curve_csv.h"
 #include "experiments/curve/summary.h"
 #include "experiments/output/decibels.h"
+#include "experiments/output/earlier_run.h"
 #include "experiments/output/quoting.h"
 #include "experiments/play/page_parts.h"
 #include "experiments/report/page.h"
@@ -26,6 +27,8 @@ namespace gsp {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 using Json = nlohmann::ordered_json;
 
 void write_text(const std::string& path, const std::string& text) {
@@ -33,6 +36,8 @@ void write_text(const std::string& path, const std::string& text) {
   file.stream() << text;
   file.commit();
 }
+
+std::string view_name(std::size_t number) { return fmt::format("views/{}.js", number); }
 
 Json optional(const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(); }
 
@@ -61,6 +66,8 @@ class Report {
       : run_(read_run(run_folder, options.recipe)), folder_(std::move(folder)), options_(options), progress_(progress) {
     result_.findings = findings(run_);
     make_folder(folder_);
+    stems_ = stems_of_earlier_run(folder_);
+    for (const StoredModel& model : run_.models) stems_.insert(file_stem(model.name));
   }
 
   ReportResult make() {
@@ -76,10 +83,27 @@ class Report {
     Json run = run_json(figures);
     make_printable(run);
     write_text(result_.files.front(), report_page(run.dump()));
+    remove_earlier();
     return std::move(result_);
   }
 
  private:
+  /// After the page, which names none of them any more.
+  void remove_earlier() const {
+    std::vector<std::string> bases = {"curves", "remesh-error", "discs"}, made = result_.files, stale;
+    for (const std::string& stem : stems_)
+      for (const char* what : {"curve", "cost", "layout", "distortion", "smoothness"})
+        bases.push_back(what + ("-" + stem));
+    for (const std::string& base : bases) {
+      const std::vector<std::string> files = figure_files("figures/" + base);
+      stale.insert(stale.end(), files.begin(), files.end());
+      if (std::find(made.begin(), made.end(), folder_ + "/" + files[1]) != made.end())
+        made.push_back(folder_ + "/" + files[2]);  // of the drawn ones
+    }
+    for (std::size_t i = views_.size(); fs::exists(folder_ + "/" + view_name(i)); ++i) stale.push_back(view_name(i));
+    remove_stale(folder_, stale, made);
+  }
+
   void write_csv() {
     std::vector<CurvePoint> all;
     for (const StoredCell& cell : run_.cells) {
@@ -117,7 +141,7 @@ class Report {
       if (model.path.empty()) continue;
       for (const StoredCell* cell : viewed_cells(model)) {
         make_folder(folder_ + "/views");
-        const std::string name = fmt::format("views/{}.js", views_.size());
+        const std::string name = view_name(views_.size());
         Progress named = progress_.within(model.name + ", " + cell->label);
         write_text(folder_ + "/" + name,
                    fmt::format("gspView(\"{}\", {});\n", name, view_json(model, *cell, streams, named)));
@@ -208,6 +232,7 @@ class Report {
   const ReportOptions& options_;
   Progress& progress_;
   ReportResult result_;
+  std::set<std::string> stems_;  ///< file names of this run's surfaces, and of an earlier one's in the folder
   std::map<std::pair<std::string, std::string>, std::string> views_;  ///< file by model and label
 };
 

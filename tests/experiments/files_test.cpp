@@ -11,6 +11,7 @@
 #include "experiments/curve/curve_csv.h"
 #include "experiments/curve/stages.h"
 #include "experiments/curve_job.h"
+#include "experiments/output/earlier_run.h"
 #include "experiments/plot/plot.h"
 #include "experiments/version.h"
 #include "mesh/error.h"
@@ -246,4 +247,25 @@ TEST_CASE("exact points round trip by curve.csv, and curves without any height a
   text.replace(text.find(",inf,"), 5, ",nan,");
   std::ofstream(folder.file("curve.csv")) << text;
   CHECK_THROWS_AS(read_curve_csv(folder.file("curve.csv")), Error);
+}
+
+TEST_CASE("what an earlier run left goes where it is not made again, and nothing else") {
+  const TemporaryFolder folder;
+  const std::string root = folder.path().string();
+  write_curve_csv(folder.file("curve.csv"),
+                  {sample_point("a/b", "gsp", 1024, 60.5), sample_point("cow", "gsp", 64, 40.0),
+                   sample_point("cow", "maps", 64, 40.0)});
+  const std::set<std::string> stems = stems_of_earlier_run(root);
+  CHECK(stems.size() == 2);
+  CHECK(stems.count("cow") == 1);
+  CHECK(stems_of_earlier_run(root + "/none").empty());
+  for (const char* name : {"cow.png", "cow.gp", "cow.csv", "horse.png", "mine.png"})
+    std::ofstream(folder.file(name)) << 1;
+  std::vector<std::string> names = figure_files("cow");
+  names.push_back("horse.png");
+  names.push_back("never.png");
+  remove_stale(root, names, {root + "/horse.png"});
+  std::set<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(root)) left.insert(entry.path().filename().string());
+  CHECK(left == std::set<std::string>{"cow.csv", "curve.csv", "horse.png", "mine.png"});
 }
