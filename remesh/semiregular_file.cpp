@@ -17,8 +17,6 @@ namespace gsp {
 
 namespace {
 
-constexpr const char* kSignature = "gsp semiregular 1";
-
 struct Counts {
   std::optional<int> level, base_vertices, base_faces;
   int creases = 0;
@@ -36,7 +34,7 @@ std::optional<Counts> read_counts(const std::string& path) {
   std::string line;
   for (int n = 0; n < kHeaderLines && std::getline(in, line) && line.rfind("end_header", 0) != 0; ++n) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (line == std::string("comment ") + kSignature) signed_by_us = true;
+    if (line == std::string("comment ") + kSemiregularSignature) signed_by_us = true;
     std::istringstream words(line);
     std::string comment, key;
     if (!(words >> comment >> key) || comment != "comment") continue;
@@ -167,7 +165,7 @@ void write_with_elements(const std::string& path, const SemiregularMesh& mesh, s
 
 void write_semiregular(const std::string& path, const SemiregularMesh& mesh,
                        const std::vector<std::string>& provenance) {
-  std::vector<std::string> comments = {kSignature, "level " + std::to_string(mesh.level),
+  std::vector<std::string> comments = {kSemiregularSignature, "level " + std::to_string(mesh.level),
                                        "base_vertices " + std::to_string(mesh.base_vertices),
                                        "base_faces " + std::to_string(mesh.base_faces.size())};
   comments.insert(comments.end(), provenance.begin(), provenance.end());
@@ -181,7 +179,7 @@ SemiregularMesh read_semiregular(const std::string& path) {
   const Mesh plain = read_mesh(path);
   const std::optional<Counts> counts = read_counts(path);
   if (!counts || !counts->level || !counts->base_vertices || !counts->base_faces)
-    refuse(path, std::string("no comments '") + kSignature + "', 'level', 'base_vertices' and 'base_faces'");
+    refuse(path, std::string("no comments '") + kSemiregularSignature + "', 'level', 'base_vertices' and 'base_faces'");
   SemiregularMesh mesh;
   mesh.level = *counts->level;
   mesh.base_vertices = *counts->base_vertices;

@@ -8,6 +8,9 @@
 
 namespace GSP_PUBLIC gsp {
 
+/// The comment by which a PLY file says that it is a semi-regular mesh.
+inline constexpr const char* kSemiregularSignature = "gsp semiregular 1";
+
 /// Writes `*.sr.ply`: a plain PLY (binary little-endian, double) with comments `gsp semiregular 1`, `level L`,
 /// `base_vertices B`, `base_faces F` and then `provenance`, one "key value" a line, which says how the mesh was made
 /// and is not read back. A displaced mesh also has the comment `control_grid G`, the element `control` with its control

@@ -15,8 +15,9 @@ using ChartCorners = std::vector<std::array<Complex, 3>>;
 const Colour kPlaster(0.86, 0.85, 0.83);
 const Colour kIsoline(0.20, 0.32, 0.48);
 const Colour kPatchEdge(0.10, 0.10, 0.14);
+const Colour kCrease(0.04, 0.04, 0.06);
 const Colour kWire(0.16, 0.18, 0.24);
-constexpr double kIsolineWidth = 1.0, kPatchEdgeWidth = 2.4, kWireWidth = 0.9;
+constexpr double kIsolineWidth = 1.0, kPatchEdgeWidth = 2.4, kCreaseWidth = 4.0, kWireWidth = 0.9;
 
 /// Light colours that differ in hue, from a qualitative scheme made for neighbouring areas on a map.
 const std::array<Colour, 10> kPatchColours = {
@@ -26,7 +27,7 @@ const std::array<Colour, 10> kPatchColours = {
 
 Colour over(const Colour& under, const Colour& ink, double share) { return under + share * (ink - under); }
 
-/// Which patch holds a point of a face.
+/// Which patch holds a point of a face, and where its chart has the face.
 class PatchLookup {
  public:
   explicit PatchLookup(const Parameterization& map) : corners_(map.face_corners) {
@@ -38,21 +39,28 @@ class PatchLookup {
     starts_.push_back(pieces_.size());
   }
 
-  int patch_at(const Fragment& fragment) const {
+  const FacePiece& piece_at(const Fragment& fragment) const {
     const std::size_t begin = starts_[fragment.face], end = starts_[fragment.face + 1];
-    if (end - begin == 1) return pieces_[begin].chart;
+    std::size_t best = begin;
+    if (end - begin == 1) return pieces_[best];
     Complex z = 0.0;
     for (int k = 0; k < 3; ++k) z += fragment.weights[k] * corners_[fragment.face][k];
-    int best = pieces_[begin].chart;
     double deepest = -1e300;
     for (std::size_t i = begin; i < end; ++i) {
       const std::array<double, 3> w = chart_barycentric(pieces_[i].motion.apply(z));
       const double depth = std::min({w[0], w[1], w[2]});
       if (depth <= deepest) continue;
       deepest = depth;
-      best = pieces_[i].chart;
+      best = i;
     }
-    return best;
+    return pieces_[best];
+  }
+
+  /// Barycentric coordinates of the corners of a piece's face in the piece's chart.
+  std::array<std::array<double, 3>, 3> corners_of(const FacePiece& piece) const {
+    std::array<std::array<double, 3>, 3> at;
+    for (int k = 0; k < 3; ++k) at[k] = chart_barycentric(piece.motion.apply(corners_[piece.face][k]));
+    return at;
   }
 
  private:
@@ -113,7 +121,7 @@ Paint plain_paint() {
 
 Paint patch_paint(const Parameterization& map) {
   return [lookup = PatchLookup(map), colour = patch_colours(map.base)](const Fragment& fragment) {
-    return colour[lookup.patch_at(fragment)];
+    return colour[lookup.piece_at(fragment).chart];
   };
 }
 
@@ -135,6 +143,26 @@ Paint with_isolines(Paint under, const Parameterization& map, int density) {
 
 Paint with_patch_edges(Paint under, const Parameterization& map) {
   return with_lattice_lines(std::move(under), map, 1, kPatchEdge, kPatchEdgeWidth);
+}
+
+Paint with_creases(Paint under, const Parameterization& map) {
+  if (map.base.creases.empty()) return under;
+  return [under = std::move(under), lookup = PatchLookup(map),
+          creased = map.base.crease_halfedges()](const Fragment& fragment) {
+    const FacePiece& piece = lookup.piece_at(fragment);
+    const std::array<std::array<double, 3>, 3> at = lookup.corners_of(piece);
+    double share = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      if (!creased[3 * piece.chart + k]) continue;
+      const int c = (k + 2) % 3;  // the coordinate that is 0 along half-edge k
+      const std::array<double, 3> values = {at[0][c], at[1][c], at[2][c]};
+      double here = 0.0;
+      for (int i = 0; i < 3; ++i) here += fragment.weights[i] * values[i];
+      // Past the middle of the patch the nearest integer is 1, at the corner across.
+      if (here < 0.5) share = std::max(share, line_ink(values, fragment, kCreaseWidth));
+    }
+    return over(under(fragment), kCrease, share);
+  };
 }
 
 Paint with_wireframe(Paint under) {

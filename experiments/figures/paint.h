@@ -27,6 +27,9 @@ Paint vertex_value_paint(const Mesh& mesh, std::vector<double> values, const Col
 Paint with_isolines(Paint under, const Parameterization& map, int density);
 /// Over another paint the edges of the patches, darker and wider.
 Paint with_patch_edges(Paint under, const Parameterization& map);
+/// Over another paint the base edges that are creases, darker and wider than those of the patches. `under` itself for a
+/// map without creases.
+Paint with_creases(Paint under, const Parameterization& map);
 /// Over another paint every edge of the mesh.
 Paint with_wireframe(Paint under);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "experiments/figures/map_measures.h"
 #include "experiments/figures/paint.h"
@@ -44,12 +45,36 @@ Picture measure_picture(const Parameterization& map, const Camera& camera, const
   throw Error(Cause::BadOption, "unknown measure " + name);
 }
 
+/// Every edge of the mesh, and over them those that `lines` adds.
+Picture wireframe_picture(const Mesh& mesh, const Camera& camera, RenderOptions options,
+                          const std::function<Paint(Paint)>& lines) {
+  options.smooth = false;
+  return draw(mesh, camera, lines(with_wireframe(plain_paint())), options);
+}
+
 Picture remesh_picture(const Parameterization& map, const Camera& camera, const PictureOptions& options,
                        Progress& progress) {
   const Parameterization remeshed = remesh_as_map(remesh(map, options.remesh, progress));
-  RenderOptions flat = options.render;
-  flat.smooth = false;
-  return draw(remeshed.surface, camera, with_patch_edges(with_wireframe(plain_paint()), remeshed), flat);
+  return wireframe_picture(remeshed.surface, camera, options.render, [&](Paint under) {
+    return with_creases(with_patch_edges(std::move(under), remeshed), remeshed);
+  });
+}
+
+/// Of a map or a semi-regular mesh.
+Parameterization read_map(const std::string& path) {
+  const bool is_map = format_of(path) == MeshFormat::Ply && read_ply(path).find("base_face") != nullptr;
+  return is_map ? read_parameterization(path) : remesh_as_map(read_semiregular(path));
+}
+
+/// Whether a surface's file says of itself that it is a map or a semi-regular mesh, and has creases.
+bool has_creases(const std::string& path) {
+  if (format_of(path) != MeshFormat::Ply) return false;
+  const PlyDocument document = read_ply(path);
+  const PlyElement* creases = document.find("crease");
+  if (creases == nullptr || creases->count == 0) return false;
+  const std::vector<std::string>& comments = document.comments;
+  return document.find("base_face") != nullptr ||
+         std::find(comments.begin(), comments.end(), kSemiregularSignature) != comments.end();
 }
 
 bool needs_map(Subject subject) {
@@ -85,7 +110,7 @@ Picture map_picture(const Parameterization& map, const PictureOptions& options, 
   const Camera camera = make_camera(map.surface, options.view);
   switch (options.subject) {
     case Subject::Patches:
-      return draw(map.surface, camera, with_patch_edges(patch_paint(map), map), options.render);
+      return draw(map.surface, camera, with_creases(with_patch_edges(patch_paint(map), map), map), options.render);
     case Subject::Isolines:
       return draw(map.surface, camera, with_patch_edges(with_isolines(plain_paint(), map, options.density), map),
                   options.render);
@@ -94,6 +119,9 @@ Picture map_picture(const Parameterization& map, const PictureOptions& options, 
       return measure_picture(map, camera, options);
     case Subject::Remesh:
       return remesh_picture(map, camera, options, progress);
+    case Subject::Wireframe:
+      return wireframe_picture(map.surface, camera, options.render,
+                               [&](Paint under) { return with_creases(std::move(under), map); });
     default:
       return mesh_picture(map.surface, options);
   }
@@ -102,13 +130,11 @@ Picture map_picture(const Parameterization& map, const PictureOptions& options, 
 Picture mesh_picture(const Mesh& mesh, const PictureOptions& options) {
   require_finite_surface(mesh);
   const Camera camera = make_camera(mesh, options.view);
-  RenderOptions render = options.render;
   switch (options.subject) {
     case Subject::Wireframe:
-      render.smooth = false;
-      return draw(mesh, camera, with_wireframe(plain_paint()), render);
+      return wireframe_picture(mesh, camera, options.render, [](Paint under) { return under; });
     case Subject::Surface:
-      return draw(mesh, camera, plain_paint(), render);
+      return draw(mesh, camera, plain_paint(), options.render);
     case Subject::Distance:
       return distance_picture(mesh, camera, options);
     default:
@@ -120,11 +146,14 @@ Picture file_picture(const std::string& path, const PictureOptions& options, Pro
   progress.report("read", 0.0);
   if (!needs_map(options.subject)) {
     const Mesh mesh = read_surface(path, options.read).mesh;
-    progress.report("draw", 0.2);
-    return mesh_picture(mesh, options);
+    // A weld or repair makes another surface, which the map does not know.
+    const bool as_read = !options.read.weld && options.read.repair == Repair::None;
+    if (options.subject != Subject::Wireframe || !as_read || !has_creases(path)) {
+      progress.report("draw", 0.2);
+      return mesh_picture(mesh, options);
+    }
   }
-  const bool is_map = format_of(path) == MeshFormat::Ply && read_ply(path).find("base_face") != nullptr;
-  const Parameterization map = is_map ? read_parameterization(path) : remesh_as_map(read_semiregular(path));
+  const Parameterization map = read_map(path);
   progress.report("draw", 0.2);
   return map_picture(map, options, progress);
 }

@@ -14,12 +14,12 @@ namespace gsp {
 
 /// What a picture shows.
 enum class Subject {
-  Patches,     ///< of a map: the patches in colours, their edges dark
+  Patches,     ///< of a map: the patches in colours, their edges dark, creases wider
   Isolines,    ///< of a map: lines of constant barycentric coordinate, patch edges dark
   Distortion,  ///< of a map: one of its measures
   Smoothness,  ///< of a map: jumps of the first derivatives (the paper's figure 1)
-  Remesh,      ///< of a map: wireframe of the remesh at a level, patch edges dark
-  Wireframe,   ///< of any surface
+  Remesh,      ///< of a map: wireframe of the remesh at a level, patch edges dark, creases wider
+  Wireframe,   ///< of any surface; of a map or semi-regular mesh read as it is, with its creases
   Surface,     ///< of any surface: its shape alone
   Distance,    ///< of any surface: how far each vertex is from another surface
 };

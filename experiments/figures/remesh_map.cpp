@@ -33,6 +33,7 @@ Parameterization remesh_as_map(const SemiregularMesh& mesh) {
   map.base.vertices.resize(mesh.base_vertices);
   std::iota(map.base.vertices.begin(), map.base.vertices.end(), 0);
   map.base.faces = mesh.base_faces;
+  map.base.creases = mesh.creases;
   map.base.connect();
   map.patch.assign(map.surface.positions.size(), -1);
   map.position.assign(map.surface.positions.size(), 0.0);

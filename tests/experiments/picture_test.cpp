@@ -1,12 +1,14 @@
 #include "experiments/figures/picture.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <sstream>
 
 #include "experiments/figures/paint.h"
 #include "experiments/figures/remesh_map.h"
+#include "mesh/edge.h"
 #include "mesh/io.h"
 #include "mesh/parallel.h"
 #include "mesh/shapes.h"
@@ -153,6 +155,87 @@ TEST_CASE("iso-lines and patch edges lie where the lattice has them") {
   Fragment edge = fragment_at(0.5, 0.01);
   edge.face = 0;
   CHECK((with_patch_edges(plain_paint(), map)(edge) != plain).any());
+}
+
+TEST_CASE("creases are wide lines along their base edge on both sides, and nowhere else") {
+  Parameterization map = exact_maps::quadrisected(shapes::octahedron(), 2);
+  map.base.creases = {ascending(map.base.faces[0][0], map.base.faces[0][1])};
+  REQUIRE_NOTHROW(require_well_formed(map));
+  const std::vector<char> creased = map.base.crease_halfedges();
+  for (const bool other_charts : {false, true}) {
+    if (other_charts) exact_maps::rechart(map, 5);
+    const Paint paint = with_creases(plain_paint(), map);
+    const Colour plain = plain_paint()(Fragment{});
+    for (int p = 0; p < map.base.face_count(); ++p)
+      for (int corner = 0; corner < 3; ++corner) {
+        // Of the sixteen faces of a patch the first at each corner, at the edge to the next corner.
+        CAPTURE(other_charts, p, corner);
+        Fragment fragment;
+        fragment.face = -1;
+        for (int f = 16 * p; f < 16 * p + 16; ++f)
+          for (int k = 0; k < 3; ++k)
+            if (map.surface.faces[f][k] == map.base.vertices[map.base.faces[p][corner]]) {
+              fragment.face = f;
+              fragment.weights[k] = fragment.weights[(k + 1) % 3] = 0.49;
+              fragment.weights[(k + 2) % 3] = 0.02;
+              fragment.slopes[k] = Eigen::Vector2d(0.01, 0.0);
+              fragment.slopes[(k + 1) % 3] = Eigen::Vector2d(-0.01, -0.02);
+              fragment.slopes[(k + 2) % 3] = Eigen::Vector2d(0.0, 0.02);
+            }
+        REQUIRE(fragment.face >= 0);
+        CHECK((paint(fragment) != plain).any() == static_cast<bool>(creased[3 * p + corner]));
+      }
+  }
+}
+
+TEST_CASE("pictures of patches and wires show creases, and are what they were where there are none") {
+  const TemporaryFolder folder;
+  const std::string map_file = folder.file("m.ply"), remesh_file = folder.file("r.sr.ply");
+  Parameterization map = exact_maps::quadrisected(shapes::octahedron(), 2);
+  SemiregularMesh mesh;
+  mesh.level = 2;
+  mesh.base_vertices = map.base.vertex_count();
+  mesh.base_faces = map.base.faces;
+  mesh.positions = shapes::quadrisect(shapes::quadrisect(shapes::octahedron())).positions;
+  Progress silent;
+  PictureOptions options;
+  options.view = {.toward = Vec3(1.0, 2.0, 3.0), .up = {}};
+  options.render.size = 100;
+  // The paints as they were before creases.
+  const auto expected = [&](const Parameterization& shown) {
+    const bool wires = options.subject == Subject::Wireframe;
+    const Paint paint = wires ? with_wireframe(plain_paint()) : with_patch_edges(patch_paint(shown), shown);
+    return render(shown.surface, make_camera(shown.surface, options.view), paint, {.size = 100, .smooth = !wires});
+  };
+  for (const bool creased : {false, true}) {
+    if (creased)
+      for (int k = 0; k < 3; ++k)
+        map.base.creases.push_back(ascending(map.base.faces[0][k], map.base.faces[0][(k + 1) % 3]));
+    std::sort(map.base.creases.begin(), map.base.creases.end());
+    mesh.creases = map.base.creases;
+    write_parameterization(map_file, map);
+    write_semiregular(remesh_file, mesh);
+    for (const Subject subject : {Subject::Patches, Subject::Wireframe}) {
+      options.subject = subject;
+      CAPTURE(creased, subject_name(options.subject));
+      CHECK((file_picture(map_file, options, silent).image.rgb == expected(map).rgb) != creased);
+      CHECK((file_picture(remesh_file, options, silent).image.rgb == expected(remesh_as_map(mesh)).rgb) != creased);
+    }
+  }
+}
+
+TEST_CASE("wires of another tool's file with an element called crease are drawn as of any surface") {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("s.ply");
+  std::ofstream(path)
+      << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+         "element face 1\nproperty list uchar int vertex_indices\nelement crease 1\nproperty int a\n"
+         "property int b\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n0 1\n";
+  Progress silent;
+  PictureOptions options;
+  options.subject = Subject::Wireframe;
+  options.render.size = 32;
+  CHECK(file_picture(path, options, silent).image.rgb == mesh_picture(read_mesh(path), options).image.rgb);
 }
 
 TEST_CASE("a semi-regular mesh is a valid map of itself") {
