@@ -34,9 +34,10 @@ namespace {
 // An automatic base is taken to have a vertex for so many of the surface, but of a finely sampled one at most so many
 // times the root of their number: the sampling does not make it more detailed.
 constexpr double kAutomaticShare = 64.0, kAutomaticRoot = 3.0;
-constexpr int kPairPasses = 3;    // of the hybrid baseline; more bring it nearer to the global solution
-constexpr int kLargerLevel = 4;   // than the last level that could not be joined
-constexpr int kOneLevel = 20000;  // vertices up to which a surface is made in one level before larger ones are tried
+constexpr int kPairPasses = 3;   // of the hybrid baseline; more bring it nearer to the global solution
+constexpr int kLargerLevel = 4;  // than the last level that could not be joined
+// Vertices up to which a surface is made in one level before larger ones are tried (bench/README.md, "Thin faces").
+constexpr int kOneLevel = 20000;
 constexpr double kLongestEdge = 0.25;                        // of the edge of an equilateral patch of mean area
 constexpr double kMostPerFace = 12.0, kMostPerPatch = 64.0;  // vertices added for it
 
