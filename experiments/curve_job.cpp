@@ -12,6 +12,7 @@
 #include "experiments/curve/curve_csv.h"
 #include "experiments/output/earlier_run.h"
 #include "experiments/output/quoting.h"
+#include "experiments/plot/gnuplot.h"
 #include "experiments/plot/plot.h"
 #include "mesh/atomic_file.h"
 
@@ -45,12 +46,11 @@ class Job {
   Job(std::string folder, const ReadOptions& read, const CurveOptions& options, Progress& progress)
       : folder_(std::move(folder)), read_(read), options_(options), progress_(progress) {
     make_folder(folder_);
-    stems_ = stems_of_earlier_run(folder_);
+    earlier_ = stems_of_earlier_run(folder_);
   }
 
   void add(const std::string& surface, const std::string& model) {
     const auto start = std::chrono::steady_clock::now();
-    stems_.insert(file_stem(model));
     Progress progress = progress_.within(model);
     CurveRun run;
     CurveSummary summary;
@@ -69,13 +69,16 @@ class Job {
     const CurveSummary numbers = summarize(model, curves);
     summary.model = model;
     summary.methods = numbers.methods;
+    const std::string stem = file_stem(model);
+    earlier_.erase(stem);
+    remove_stale(folder_, files_of(stem), {});  // before its own: a figure's program stays where gnuplot is missing
     if (!run.omega.empty())
       attempt(summary, [&] {
-        const std::string name = file_stem(model) + "-omega.csv";
+        const std::string name = stem + "-omega.csv";
         write_omega_csv(folder_ + "/" + name, run.omega);
         made(name);
       });
-    draw(summary, file_stem(model), {{model, curves}});
+    draw(summary, stem, {{model, curves}});
     if (!curves.empty()) panels_.emplace_back(model, std::move(curves));
     result_.models.push_back(std::move(summary));
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
@@ -86,17 +89,18 @@ class Job {
     save_points({});
     made("curve.csv");
     if (panels_.size() > 1) draw(result_.models.back(), "overview", panels_);
-    std::vector<std::string> stale = figure_files("overview");
-    for (const std::string& stem : stems_) {
-      const std::vector<std::string> figure = figure_files(stem);
-      stale.insert(stale.end(), figure.begin(), figure.end());
-      stale.push_back(stem + "-omega.csv");
-    }
-    remove_stale(folder_, stale, result_.files);
+    if (panels_.size() <= 1) remove_stale(folder_, figure_files("overview"), result_.files);
+    for (const std::string& stem : earlier_) remove_stale(folder_, files_of(stem), result_.files);
     return std::move(result_);
   }
 
  private:
+  static std::vector<std::string> files_of(const std::string& stem) {
+    std::vector<std::string> files = figure_files(stem);
+    files.push_back(stem + "-omega.csv");
+    return files;
+  }
+
   void made(const std::string& name) { result_.files.push_back(folder_ + "/" + name); }
 
   void save_points(const std::vector<CurvePoint>& unfinished) {
@@ -119,7 +123,7 @@ class Job {
   std::vector<CurvePoint> finished_;
   std::vector<PlotPanel> panels_;
   CurveJobResult result_;
-  std::set<std::string> stems_;  ///< of this run and of an earlier one in the folder
+  std::set<std::string> earlier_;  ///< stems of an earlier run in the folder that this one has not come to
 };
 
 }  // namespace

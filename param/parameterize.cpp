@@ -213,14 +213,14 @@ std::optional<SmoothedMap> join_levels(const Levels& first,
     const auto step = progress.step("check map");
     return map ? faults_of(map->atlas.finish({})) : "a vertex has no place";
   };
-  std::optional<SmoothedMap> map = make(first.base.simplified), last = map;
+  std::optional<SmoothedMap> map = make(first.base.simplified), last;
   for (int coarsest : larger_levels(first.coarsest, whole)) {
     const auto why = why_not(map);
     if (!why) break;
     progress.note("the levels of the map could not be joined (" + *why + "); the last one starts with " +
                   std::to_string(coarsest) + " vertices instead");
+    if (map) last = std::move(map);
     map = make(simplify(first.surface, first.base.options, coarsest, progress));
-    if (map) last = map;
   }
   if (!map) map = std::move(last);
   if (!map) return std::nullopt;

@@ -14,6 +14,4 @@ void remove_stale(const std::string& folder, const std::vector<std::string>& nam
   }
 }
 
-std::vector<std::string> figure_files(const std::string& base) { return {base + ".png", base + ".svg", base + ".gp"}; }
-
 }  // namespace gsp

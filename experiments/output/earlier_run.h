@@ -10,7 +10,4 @@ namespace gsp {
 void remove_stale(const std::string& folder, const std::vector<std::string>& names,
                   const std::vector<std::string>& made);
 
-/// The files of a figure (experiments/plot/gnuplot.h): `base` with .png, .svg and .gp.
-std::vector<std::string> figure_files(const std::string& base);
-
 }  // namespace gsp

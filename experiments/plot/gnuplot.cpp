@@ -70,20 +70,23 @@ std::string figure_script(const std::string& name, const std::string& setup, con
   return script;
 }
 
+std::vector<std::string> figure_files(const std::string& name) { return {name + ".png", name + ".svg", name + ".gp"}; }
+
 std::vector<std::string> draw_figure(const std::string& folder, const std::string& name, const std::string& script) {
-  AtomicFile file(folder + "/" + name + ".gp");
+  const std::vector<std::string> files = figure_files(name);
+  const std::string& program = files.back();
+  AtomicFile file(folder + "/" + program);
   file.stream() << script;
   file.commit();
-  const std::vector<std::string> figures = {name + ".png", name + ".svg"};
   // Drawn in a folder of its own and brought over as a whole, so that an interrupt leaves no half of a figure.
   const ScratchFolder scratch(folder + "/.plot-" + std::to_string(::getpid()));
-  run_gnuplot(scratch.path(), "../" + name + ".gp");
-  for (const std::string& figure : figures) {
+  run_gnuplot(scratch.path(), "../" + program);
+  for (const std::string& figure : {files[0], files[1]}) {
     AtomicFile drawn(folder + "/" + figure);
     drawn.stream() << read_file(scratch.path() + "/" + figure);
     drawn.commit();
   }
-  return {figures[0], figures[1], name + ".gp"};
+  return files;
 }
 
 }  // namespace gsp

@@ -16,6 +16,7 @@
 #include "experiments/output/earlier_run.h"
 #include "experiments/output/quoting.h"
 #include "experiments/play/page_parts.h"
+#include "experiments/plot/gnuplot.h"
 #include "experiments/report/page.h"
 #include "experiments/report/run_figures.h"
 #include "experiments/report/view_data.h"

@@ -12,6 +12,7 @@
 #include "experiments/curve/stages.h"
 #include "experiments/curve_job.h"
 #include "experiments/output/earlier_run.h"
+#include "experiments/plot/gnuplot.h"
 #include "experiments/plot/plot.h"
 #include "experiments/version.h"
 #include "mesh/error.h"
