@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "experiments/output/quoting.h"
+#include "mesh/memory.h"
 
 namespace gsp::cli {
 
@@ -45,6 +46,7 @@ Console::~Console() {
 Progress Console::progress() {
   Progress progress([this](const std::string& stage, double fraction) {
     show(stage, fraction);
+    require_memory(stage);
     return !interrupted();
   });
   progress.on_note([this](const std::string& sentence) { remark(sentence); });
@@ -81,6 +83,14 @@ void Console::show(const std::string& stage, double fraction) {
   } else {
     err_ << text << '\n' << std::flush;
   }
+}
+
+void Console::require_memory(const std::string& stage) const {
+  if (memory_limit == 0) return;
+  const double megabytes = 1e-6 * resident_memory();
+  if (megabytes > memory_limit)
+    throw Error(Cause::OutOfMemory, fmt::format("{:.0f} MB of memory are taken, more than --memory-limit {}, during {}",
+                                                megabytes, memory_limit, stage));
 }
 
 void Console::clear_line() {

@@ -27,8 +27,10 @@ class Console {
 
   bool quiet = false;    ///< nothing but errors
   bool verbose = false;  ///< every remark of every stage, not only the first few
+  int memory_limit = 0;  ///< megabytes that the process may hold whenever a stage reports, 0 for any
 
-  /// Reports here and cancels after Ctrl-C. Valid as long as the console.
+  /// Reports here, cancels after Ctrl-C, and throws Error(OutOfMemory) above `memory_limit`. Valid as long as the
+  /// console.
   Progress progress();
   /// A line for people.
   void say(const std::string& sentence);
@@ -39,6 +41,7 @@ class Console {
   using Clock = std::chrono::steady_clock;
   void show(const std::string& stage, double fraction);
   void remark(const std::string& sentence);
+  void require_memory(const std::string& stage) const;
   void clear_line();
 
   std::ostream& err_;

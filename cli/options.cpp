@@ -80,6 +80,9 @@ Command::Command(CLI::App& app, Context& context, const std::string& name, const
   constexpr int kMostThreads = 1024;
   integer("--threads", context.threads, 0, kMostThreads,
           "threads, 0 for all cores; the result is the same bits for any number");
+  constexpr int kMostMegabytes = 1 << 24;
+  integer("--memory-limit", context.console.memory_limit, 0, kMostMegabytes,
+          "megabytes of memory after which the command gives up, 0 for none; of a map it is estimated before the work");
 }
 
 void Command::argument(const std::string& place, std::string& value, const std::string& text) {

@@ -1,5 +1,7 @@
 #include "param/parameterize.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -14,6 +16,7 @@
 #include "experiments/plot/gnuplot.h"
 #include "experiments/report/cost.h"
 #include "mesh/features/feature_file.h"
+#include "mesh/memory.h"
 #include "param/map/param_file.h"
 
 namespace gsp::cli {
@@ -42,6 +45,20 @@ Json stages(const CostCurve& cost) {
   return {{"second", value(cost.second_stage)}, {"third", value(cost.third_stage)}};
 }
 
+/// Says before the work what cannot end well. Throws Error(OutOfMemory) above --memory-limit; where only the machine
+/// has too little it is a note, since the estimate may be wrong.
+void expect_memory(const Mesh& mesh, const Context& context, Progress& progress) {
+  constexpr double kMegabyte = 1e6;
+  const double bytes = parameterize_memory(mesh);
+  const std::string need =
+      fmt::format("the map of {} faces needs about {:.0f} MB of memory", mesh.face_count(), bytes / kMegabyte);
+  const int limit = context.console.memory_limit;
+  if (limit > 0 && bytes > kMegabyte * limit)
+    throw Error(Cause::OutOfMemory, fmt::format("{}, more than --memory-limit {}", need, limit));
+  if (const double there = available_memory(); bytes > there)
+    progress.note(fmt::format("{}, and the machine has {:.0f} MB left", need, there / kMegabyte));
+}
+
 int run_parameterize(ParameterizeArguments& options, Context& context) {
   Progress progress = context.console.progress();
   Profile profile;
@@ -52,6 +69,7 @@ int run_parameterize(ParameterizeArguments& options, Context& context) {
     const auto step = progress.step("read");
     return read_input(options.mesh, options.read, context);
   }();
+  expect_memory(file.mesh, context, progress);
   if (!options.features.empty())
     options.parameterize.features = in_places_of(file, [&] { return read_features(options.features, file.mesh); });
   const ParameterizeResult result = in_places_of(file, [&] {

@@ -372,6 +372,11 @@ ParameterizeResult parameterize(const Mesh& mesh, const ParameterizeOptions& opt
   return std::move(parameterize_all(mesh, {options.method}, options, progress).front());
 }
 
+double parameterize_memory(const Mesh& mesh) {
+  constexpr double kProgram = 70e6, kPerFace = 0.83e3;
+  return kProgram + kPerFace * static_cast<double>(mesh.face_count());
+}
+
 void write_omega_csv(const std::string& path, const std::vector<OmegaRecord>& record) {
   AtomicFile file(path);
   file.stream() << "remaining_vertices,shape,dispersion,metric,omega\n" << std::setprecision(17);

@@ -33,6 +33,10 @@ ParameterizeResult parameterize(const Mesh& mesh, const ParameterizeOptions& opt
 std::vector<ParameterizeResult> parameterize_all(const Mesh& mesh, const std::vector<Method>& methods,
                                                  const ParameterizeOptions& options, Progress& progress);
 
+/// Bytes of memory that `parameterize` and its program will hold at most: an estimate from the faces alone
+/// (bench/README.md, "Memory", says how near it is and who needs more).
+double parameterize_memory(const Mesh& mesh);
+
 /// Writes remaining_vertices, shape, dispersion, metric, omega, one row per removal; where the base size is automatic
 /// the last row is the removal that was not made, since it begins the third stage.
 void write_omega_csv(const std::string& path, const std::vector<OmegaRecord>& record);

@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <set>
 
@@ -18,6 +17,7 @@
 #include "experiments/sweep/worker.h"
 #include "experiments/version.h"
 #include "mesh/atomic_file.h"
+#include "mesh/memory.h"
 #include "mesh/parallel.h"
 
 namespace gsp {
@@ -28,14 +28,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kPollMilliseconds = 200;
-
-double available_memory() {
-  std::ifstream in("/proc/meminfo");
-  std::string name, unit;
-  for (double kib = 0.0; in >> name >> kib; std::getline(in, unit))
-    if (name == "MemAvailable:") return 1024.0 * kib;
-  return 1e18;
-}
 
 // One worker and what it is at.
 struct Running {

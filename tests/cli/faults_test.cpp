@@ -264,6 +264,23 @@ TEST_CASE("commands that solve nothing do with little address space") {
   }
 }
 
+TEST_CASE("a map that needs more than the memory limit is refused before the work, and any command gives up above it") {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("torus.off"), map = folder.file("a.param.ply");
+  write_mesh(path, shapes::torus(16, 8));
+  const auto made = [&](const std::string& limit) {
+    return gsp_run({"parameterize", path, "-o", map, "--base-vertices", "20", "--memory-limit", limit});
+  };
+  const Ran refused = made("60");
+  CHECK(refused.status == 1);
+  CHECK(contains(refused.err, "the map of 256 faces needs about 70 MB of memory, more than --memory-limit 60"));
+  CHECK_FALSE(std::filesystem::exists(map));
+  CHECK(made("100000").status == 0);
+  const Ran given_up = gsp_run({"distance", path, path, "--samples", "1000", "--memory-limit", "1"});
+  CHECK(given_up.status == 1);
+  CHECK(contains(given_up.err, "MB of memory are taken, more than --memory-limit 1, during "));
+}
+
 TEST_CASE("features of a file become creases, and a file that names what is not there is refused with its line") {
   const TemporaryFolder folder;
   const Mesh box = shapes::box(3);
