@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "mesh/edge.h"
 #include "mesh/error.h"
 #include "mesh/io.h"
 #include "mesh/topology.h"
@@ -15,10 +16,6 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& why, Element element, int index) {
   throw Error(Cause::NoSubdivisionConnectivity, "the mesh has no subdivision connectivity: " + why, element, index);
-}
-
-std::uint64_t edge_key(int a, int b) {
-  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
 }
 
 /// A quadrisection undone: the coarse faces, and which vertex stands on which of their edges. Vertices keep the numbers

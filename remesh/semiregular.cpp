@@ -5,6 +5,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "mesh/edge.h"
 #include "mesh/error.h"
 
 namespace gsp {
@@ -36,10 +37,6 @@ void add_side(SubdivisionLevel& level, int face, int k, int edge) {
     level.edge_faces[edge][1] = face;
   }
   level.face_edges[face][k] = edge;
-}
-
-std::uint64_t edge_key(int a, int b) {
-  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
 }
 
 /// `known`: edges by their key.
