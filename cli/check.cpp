@@ -72,11 +72,7 @@ int run_check(const CheckArguments& options, Context& context) {
   const Baseline baseline = read_baseline(options.baseline);
   const Baseline run = baseline_of_run(options.run, options.recipe);
   const CheckResult result = check(baseline, run, {.times = !options.ignore_times});
-  if (!options.junit.empty()) {
-    AtomicFile file(options.junit);
-    file.stream() << junit_report(result, baseline.recipe);
-    file.commit();
-  }
+  if (!options.junit.empty()) write_file(options.junit, junit_report(result, baseline.recipe));
   Json report = {{"passed", result.passed()},
                  {"rows", result.rows.size()},
                  {"numbers_compared", result.compared},

@@ -2,11 +2,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/input.h"
 #include "cli/options.h"
 #include "cli/print.h"
 #include "coder/codec.h"
 #include "experiments/output/glb.h"
+#include "experiments/output/stream_file.h"
 #include "remesh/semiregular_file.h"
 
 namespace gsp::cli {

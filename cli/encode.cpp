@@ -7,7 +7,7 @@
 #include "coder/codec.h"
 #include "experiments/cells/cell_options.h"
 #include "experiments/curve/targets.h"
-#include "mesh/atomic_file.h"
+#include "experiments/output/stream_file.h"
 #include "remesh/recover_levels.h"
 
 namespace gsp::cli {
@@ -69,9 +69,7 @@ int run_encode(const EncodeArguments& options, Context& context) {
   const Bytes stream = fixed ? fixed_stream(mesh, encode_options, whole, options, progress)
                              : embedded_stream(whole, mesh, options, progress);
 
-  AtomicFile file(options.output);
-  file.stream().write(reinterpret_cast<const char*>(stream.data()), static_cast<std::streamsize>(stream.size()));
-  file.commit();
+  write_stream(options.output, stream);
   print_report(context, {{"wavelet", options.wavelet},
                          {"mode", options.mode},
                          {"level", mesh.level},

@@ -4,9 +4,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/input.h"
 #include "cli/options.h"
 #include "cli/print.h"
+#include "experiments/output/stream_file.h"
 #include "mesh/atomic_file.h"
 
 namespace gsp::cli {
@@ -22,9 +22,7 @@ int run_play(const PlayArguments& options, Context& context) {
   const std::string title =
       options.title.empty() ? std::filesystem::path(options.stream).stem().string() : options.title;
   const PlayPage page = play_page(stream, title);
-  AtomicFile file(options.output);
-  file.stream() << page.html;
-  file.commit();
+  write_file(options.output, page.html);
   print_report(context, {{"bytes", stream.size()},
                          {"header_bytes", page.header_bytes},
                          {"level", page.level},

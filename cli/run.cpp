@@ -38,9 +38,7 @@ void add_manual(CLI::App& app, Context& context) {
       for (const ManualFile& page : manual(app)) {
         const std::filesystem::path path = std::filesystem::path(*folder) / page.path;
         std::filesystem::create_directories(path.parent_path());
-        AtomicFile file(path.string());
-        file.stream() << page.text;
-        file.commit();
+        write_file(path.string(), page.text);
       }
       return 0;
     };

@@ -97,6 +97,12 @@ void AtomicFile::commit() {
   synchronize(folder.empty() ? "." : folder);
 }
 
+void write_file(const std::string& path, std::string_view bytes) {
+  AtomicFile file(path);
+  file.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.commit();
+}
+
 void make_folder(const std::string& path) {
   std::error_code failed;
   fs::create_directories(path, failed);

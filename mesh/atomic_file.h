@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <string>
+#include <string_view>
 
 namespace gsp {
 
@@ -25,6 +26,9 @@ class AtomicFile {
   std::string temporary_;  ///< empty where the target is written in its place
   std::ofstream out_;
 };
+
+/// A whole file in one call.
+void write_file(const std::string& path, std::string_view bytes);
 
 /// Makes a folder and those above it, where they are not there. Throws Error(CannotWrite) with the system's reason,
 /// also where a file is in its place.

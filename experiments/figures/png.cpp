@@ -18,9 +18,7 @@ void write_png(const std::string& path, const Image& image) {
   png_alloc_size_t size = bytes.size();
   if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr))
     throw Error(Cause::CannotWrite, path + ": " + header.message);
-  AtomicFile file(path);
-  file.stream().write(bytes.data(), static_cast<std::streamsize>(size));
-  file.commit();
+  write_file(path, {bytes.data(), size});
 }
 
 }  // namespace gsp

@@ -144,10 +144,7 @@ class Document {
 }  // namespace
 
 void write_glb(const std::string& path, const SemiregularMesh& mesh, bool levels) {
-  const std::string bytes = Document(mesh, levels).bytes();
-  AtomicFile file(path);
-  file.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.commit();
+  write_file(path, Document(mesh, levels).bytes());
 }
 
 }  // namespace gsp

@@ -28,9 +28,7 @@ void read_value(const OrderedJson& json, double& value) {
 }  // namespace
 
 void write_json(const std::string& path, const OrderedJson& json) {
-  AtomicFile file(path);
-  file.stream() << json.dump(1, ' ', false, OrderedJson::error_handler_t::replace) << '\n';
-  file.commit();
+  write_file(path, json.dump(1, ' ', false, OrderedJson::error_handler_t::replace) + '\n');
 }
 
 OrderedJson read_json(const std::string& path) {

@@ -58,15 +58,11 @@ void submit(const std::vector<Task>& tasks, const std::string& folder, const std
   for (std::size_t i = 0; i < tasks.size(); ++i)
     write_task(fmt::format("{}/{}.json", slurm_folder(folder), i), tasks[i]);
   const std::string script = slurm_folder(folder) + "/array.sh";
-  AtomicFile file(script);
-  file.stream() << array_script(program, tasks.size(), std::min(tasks.size(), kMostArrayTasks));
-  file.commit();
+  write_file(script, array_script(program, tasks.size(), std::min(tasks.size(), kMostArrayTasks)));
   const std::vector<std::string> printed = output_of("sbatch", {"--parsable", "--chdir=" + folder, script});
   if (printed.empty()) throw Error(Cause::ToolMissing, "sbatch named no job");
-  AtomicFile job(job_file(folder));
   // On a federation the cluster's name follows.
-  job.stream() << printed.back().substr(0, printed.back().find(';')) << '\n';
-  job.commit();
+  write_file(job_file(folder), printed.back().substr(0, printed.back().find(';')) + "\n");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "experiments/sweep/stage_runner.h"
+#include "experiments/output/stream_file.h"
 
 #include <algorithm>
 #include <chrono>
@@ -15,21 +16,13 @@
 #include "experiments/store/artefacts.h"
 #include "experiments/sweep/reference_task.h"
 #include "experiments/version.h"
-#include "mesh/atomic_file.h"
 #include "mesh/io.h"
-#include "mesh/read_file.h"
 #include "param/map/param_file.h"
 #include "remesh/semiregular_file.h"
 
 namespace gsp {
 
 namespace {
-
-void write_bytes(const std::string& path, const Bytes& bytes) {
-  AtomicFile file(path);
-  file.stream().write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  file.commit();
-}
 
 std::vector<std::string> provenance(const CellOptions& options) {
   return options.external ? std::vector<std::string>{"external " + options.method} : provenance_of(options.remesh);
@@ -191,13 +184,12 @@ class Runner {
                       {"header_bytes", static_cast<double>(parts.header_bytes)},
                       {"connectivity_bytes", static_cast<double>(parts.connectivity_bytes)}};
     result.artefacts["stream"] =
-        keep_artefact(store_, ".pgc", [&](const std::string& path) { write_bytes(path, stream); });
+        keep_artefact(store_, ".pgc", [&](const std::string& path) { write_stream(path, stream); });
   }
 
   void measure_stage(const PlannedCell& cell, StageResult& result) {
     const CellOptions& options = cell.options;
-    const std::string bytes = read_file(artefact(cell, StageKind::Encode, "stream"));
-    const Bytes embedded(bytes.begin(), bytes.end());
+    const Bytes embedded = read_stream(artefact(cell, StageKind::Encode, "stream"));
     if (options.mode == StreamMode::Embedded) {
       result.points = decoded_curve(embedded, options.budgets, meter(cell), options.samples, progress_);
       return;
@@ -207,7 +199,7 @@ class Runner {
     result.points = decoded_streams(streams, meter(cell), options.samples, progress_);
     for (const Bytes& stream : streams)
       result.artefacts[fixed_stream_role(stream.size())] =
-          keep_artefact(store_, ".pgc", [&](const std::string& path) { write_bytes(path, stream); });
+          keep_artefact(store_, ".pgc", [&](const std::string& path) { write_stream(path, stream); });
   }
 
   const Meter& meter(const PlannedCell& cell) {
