@@ -45,6 +45,8 @@ void add_report(CLI::App& app, Context& context) {
   command.integer("--views", options->report.views, 0, 100, "cells of each model in the 3D view, a few MB each");
   command.flag("--stored-surfaces", options->report.stored_surfaces,
                "views hold surfaces of eight sizes, for browsers without WebAssembly, instead of the streams");
+  command.integer("--map-models", options->report.map_models, 0, 100'000,
+                  "models whose maps are drawn, the first of the run; curves and costs are drawn of all");
   command.flag("--no-figures", options->no_figures, "leave the figures out, and with them gnuplot");
   command.on_run([options, &context] { return run_report(*options, context); });
 }

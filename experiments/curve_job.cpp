@@ -88,8 +88,8 @@ class Job {
   CurveJobResult finish() {
     save_points({});
     made("curve.csv");
+    remove_stale(folder_, figure_files("overview"), {});
     if (panels_.size() > 1) draw(result_.models.back(), "overview", panels_);
-    if (panels_.size() <= 1) remove_stale(folder_, figure_files("overview"), result_.files);
     for (const std::string& stem : earlier_) remove_stale(folder_, files_of(stem), result_.files);
     return std::move(result_);
   }

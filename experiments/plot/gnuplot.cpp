@@ -36,17 +36,23 @@ class ScratchFolder {
   std::string path_;
 };
 
-// Runs gnuplot in `folder` on a script there.
-void run_gnuplot(const std::string& folder, const std::string& script) {
+// Runs gnuplot in `folder` on scripts there, each as if it were the only one. False where gnuplot fails on one.
+bool run_gnuplot(const std::string& folder, const std::vector<std::string>& scripts) {
+  std::vector<std::string> words = {"gnuplot"};
+  for (const std::string& script : scripts) {
+    if (words.size() > 1) words.insert(words.end(), {"-e", "reset session"});
+    words.push_back(script);
+  }
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  std::string program = "gnuplot", argument = script;
-  char* const argv[] = {program.data(), argument.data(), nullptr};
   pid_t child = 0;
-  const int failure = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, argv, environ);
+  const int failure = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failure != 0)
     throw Error(Cause::ToolMissing,
@@ -54,8 +60,7 @@ void run_gnuplot(const std::string& folder, const std::string& script) {
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw Error(Cause::ToolMissing, "gnuplot failed on " + folder + "/" + script);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 }  // namespace
@@ -72,21 +77,37 @@ std::string figure_script(const std::string& name, const std::string& setup, con
 
 std::vector<std::string> figure_files(const std::string& name) { return {name + ".png", name + ".svg", name + ".gp"}; }
 
-std::vector<std::string> draw_figure(const std::string& folder, const std::string& name, const std::string& script) {
-  const std::vector<std::string> files = figure_files(name);
-  const std::string& program = files.back();
-  AtomicFile file(folder + "/" + program);
-  file.stream() << script;
-  file.commit();
+void draw_figures(const std::string& folder, const std::vector<FigureProgram>& figures) {
+  std::vector<std::string> programs;
+  for (const auto& [name, script] : figures) {
+    const std::string program = figure_files(name).back();
+    AtomicFile file(folder + "/" + program);
+    file.stream() << script;
+    file.commit();
+    programs.push_back("../" + program);
+  }
+  if (figures.empty()) return;
   // Drawn in a folder of its own and brought over as a whole, so that an interrupt leaves no half of a figure.
   const ScratchFolder scratch(folder + "/.plot-" + std::to_string(::getpid()));
-  run_gnuplot(scratch.path(), "../" + program);
-  for (const std::string& figure : {files[0], files[1]}) {
-    AtomicFile drawn(folder + "/" + figure);
-    drawn.stream() << read_file(scratch.path() + "/" + figure);
-    drawn.commit();
+  if (!run_gnuplot(scratch.path(), programs)) {
+    // One by one, so that the error names the figure.
+    for (const std::string& program : programs)
+      if (!run_gnuplot(scratch.path(), {program}))
+        throw Error(Cause::ToolMissing, "gnuplot failed on " + folder + program.substr(2));
   }
-  return files;
+  for (const FigureProgram& figure : figures) {
+    const std::vector<std::string> files = figure_files(figure.name);
+    for (const std::string& picture : {files[0], files[1]}) {
+      AtomicFile drawn(folder + "/" + picture);
+      drawn.stream() << read_file(scratch.path() + "/" + picture);
+      drawn.commit();
+    }
+  }
+}
+
+std::vector<std::string> draw_figure(const std::string& folder, const std::string& name, const std::string& script) {
+  draw_figures(folder, {{name, script}});
+  return figure_files(name);
 }
 
 }  // namespace gsp

@@ -76,7 +76,8 @@ class Report {
     write_csv();
     write_views();
     const std::vector<RunFigure> figures =
-        options_.figures ? run_figures(run_, result_.findings, folder_, progress_) : std::vector<RunFigure>();
+        options_.figures ? run_figures(run_, result_.findings, folder_, options_.map_models, progress_)
+                         : std::vector<RunFigure>();
     for (const RunFigure& figure : figures) {
       result_.files.push_back(folder_ + "/" + figure.png);
       if (!figure.svg.empty()) result_.files.push_back(folder_ + "/" + figure.svg);

@@ -9,9 +9,10 @@
 namespace gsp {
 
 struct ReportOptions {
-  std::string recipe;   ///< of a store with several; empty stands for the latest
-  bool figures = true;  ///< draw the figures, which wants gnuplot
-  int views = 3;        ///< cells of each model in the 3D view, 0..100
+  std::string recipe;    ///< of a store with several; empty stands for the latest
+  bool figures = true;   ///< draw the figures, which wants gnuplot
+  int map_models = 100;  ///< models whose maps are drawn, the first of the run, 0..100,000: 0.7 CPU s each
+  int views = 3;         ///< cells of each model in the 3D view, 0..100
   /// Views hold decoded surfaces of up to eight sizes, for browsers without WebAssembly. They do so too where gsp was
   /// built without emscripten; else they hold the streams, which take a third of the bytes, and decode any size.
   bool stored_surfaces = false;

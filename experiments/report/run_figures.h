@@ -14,9 +14,10 @@ struct RunFigure {
   std::string caption;
 };
 
-/// Draws what the run has the numbers or artefacts for into FOLDER/figures. Throws Error: ToolMissing, CannotWrite,
-/// Cancelled, and what reading artefacts throws.
-std::vector<RunFigure> run_figures(const Run& run, const Findings& found, const std::string& folder,
+/// Draws what the run has the numbers or artefacts for into FOLDER/figures, each by gnuplot with the program that draws
+/// it beside it; maps of the first `maps` models that have one, with a note where there are more. Throws Error:
+/// ToolMissing, CannotWrite, Cancelled, and what reading artefacts throws.
+std::vector<RunFigure> run_figures(const Run& run, const Findings& found, const std::string& folder, int maps,
                                    Progress& progress);
 
 }  // namespace gsp

@@ -1,5 +1,7 @@
 #include "experiments/report/run_pictures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "experiments/figures/map_measures.h"
@@ -96,15 +98,17 @@ std::vector<const StoredCell*> mapped_cells(const Run& run, const Findings& foun
 
 }  // namespace
 
-void map_figures(const Run& run, const Findings& found, const std::string& folder, std::vector<RunFigure>& figures,
-                 Progress& progress) {
+void map_figures(const Run& run, const Findings& found, const std::string& folder, int most,
+                 std::vector<RunFigure>& figures, Progress& progress) {
+  int mapped = 0;
   for (const StoredModel& model : run.models) {
     const std::vector<const StoredCell*> cells = mapped_cells(run, found, model.name);
-    if (cells.empty()) continue;
+    if (cells.empty() || ++mapped > most) continue;
     progress.report("draw " + model.name, 0.0);
     reference_figures(*cells.front(), folder, figures);
     smoothness_figure(cells, folder, figures);
   }
+  if (mapped > most) progress.note(fmt::format("the maps of {} of {} models are drawn (--map-models)", most, mapped));
 }
 
 void disc_figure(const Run& run, const std::string& folder, std::vector<RunFigure>& figures) {

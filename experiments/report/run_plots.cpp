@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "experiments/output/quoting.h"
-#include "experiments/plot/gnuplot.h"
 #include "experiments/plot/plot.h"
 #include "experiments/report/cost.h"
 
@@ -23,10 +23,13 @@ constexpr std::size_t kMostBars = 12;
 constexpr int kBarsWidth = 1200;
 constexpr const char* kGrid = "set grid ytics back lt 1 lw 1 lc rgb '#e4e4e4'\n";
 
-void add_figure(std::vector<RunFigure>& figures, const std::string& folder, const std::string& name,
-                const std::string& script, const std::string& caption) {
-  draw_figure(folder + "/figures", name, script);
-  figures.push_back({"figures/" + name + ".png", "figures/" + name + ".svg", caption});
+/// `like_last`: of the same kind as the one before.
+void add_figure(RunPlots& plots, const std::string& name, const std::string& script, const std::string& caption,
+                bool like_last = false) {
+  constexpr std::size_t kFiguresARun = 50;  // 2 s, after which a run can be cancelled
+  if (!like_last || plots.runs.back().size() >= kFiguresARun) plots.runs.emplace_back();
+  plots.runs.back().push_back({name, script});
+  plots.figures.push_back({"figures/" + name + ".png", "figures/" + name + ".svg", caption});
 }
 
 std::string value_or_missing(const std::optional<double>& value, double scale = 1.0) {
@@ -139,22 +142,22 @@ std::string heat_rows(const Run& run, const std::string& method, const Scale& x,
 
 }  // namespace
 
-void curve_figures(const Run& run, const std::string& folder, std::vector<RunFigure>& figures) {
+void curve_figures(const Run& run, RunPlots& plots) {
   std::vector<PlotPanel> panels;
   for (const StoredModel& model : run.models) {
     std::vector<CurveSeries> curves = run.curves(model.name);
     if (curves.empty()) continue;
     const std::string name = "curve-" + file_stem(model.name);
-    add_figure(figures, folder, name, plot_script(name, {{model.name, curves}}),
-               "Rate-distortion curves of " + model.name + ", ceilings dashed (the paper's figure 7).");
+    add_figure(plots, name, plot_script(name, {{model.name, curves}}),
+               "Rate-distortion curves of " + model.name + ", ceilings dashed (the paper's figure 7).",
+               !panels.empty());
     panels.emplace_back(model.name, std::move(curves));
   }
   if (panels.size() < 2 || panels.size() > kMostPanels) return;
-  add_figure(figures, folder, "curves", plot_script("curves", panels),
-             "Rate-distortion curves (the paper's figure 7).");
+  add_figure(plots, "curves", plot_script("curves", panels), "Rate-distortion curves (the paper's figure 7).");
 }
 
-void bar_figure(const Run& run, const Findings& found, const std::string& folder, std::vector<RunFigure>& figures) {
+void bar_figure(const Run& run, const Findings& found, RunPlots& plots) {
   std::vector<std::string> labels;
   for (const Comparison& c : found.comparisons)
     if (c.bd_rate && std::find(labels.begin(), labels.end(), c.label) == labels.end()) labels.push_back(c.label);
@@ -173,13 +176,13 @@ void bar_figure(const Run& run, const Findings& found, const std::string& folder
       gnuplot_quoted("reference: " + found.reference) +
       " noenhanced\n"
       "set xzeroaxis lt 1 lc rgb '#555555'\nset yrange [*<0:0<*]\n";
-  add_figure(figures, folder, "bd-rate",
+  add_figure(plots, "bd-rate",
              figure_script("bd-rate", setup, plot_bars(labels, curve_colors(run, labels)), kBarsWidth, 500),
              fmt::format("BD-rate against {}: bytes that each needs more at equal PSNR, ceilings respected.",
                          found.reference));
 }
 
-void heat_figure(const Run& run, const Findings& found, const std::string& folder, std::vector<RunFigure>& figures) {
+void heat_figure(const Run& run, const Findings& found, RunPlots& plots) {
   const auto reference =
       std::find_if(run.cells.begin(), run.cells.end(), [&](const StoredCell& c) { return c.label == found.reference; });
   if (reference == run.cells.end()) return;
@@ -217,13 +220,14 @@ void heat_figure(const Run& run, const Findings& found, const std::string& folde
                     gnuplot_quoted(panels[i].first), i);
   }
   add_figure(
-      figures, folder, "settings",
+      plots, "settings",
       figure_script("settings", setup, commands + "unset multiplot\n", 460 * static_cast<int>(panels.size()), 430),
       fmt::format("BD-rate over {} and {} against {}: blue needs fewer bytes, red more.", x.name(), y.name(),
                   found.reference));
 }
 
-void cost_figures(const Run& run, const Findings& found, const std::string& folder, std::vector<RunFigure>& figures) {
+void cost_figures(const Run& run, const Findings& found, RunPlots& plots) {
+  bool any = false;
   for (const StoredModel& model : run.models) {
     const auto cell = std::find_if(run.cells.begin(), run.cells.end(), [&](const StoredCell& c) {
       return c.model == model.name && c.label == found.reference && !c.artefact("omega").empty();
@@ -233,12 +237,13 @@ void cost_figures(const Run& run, const Findings& found, const std::string& fold
     if (cost.bins.empty()) continue;
     const std::string name = "cost-" + file_stem(model.name);
     add_figure(
-        figures, folder, name, cost_script(name, model.name, cost),
-        fmt::format("Cost of vertex removals on {}, the paper's figure 5d: {}.", model.name, cost_in_words(cost)));
+        plots, name, cost_script(name, model.name, cost),
+        fmt::format("Cost of vertex removals on {}, the paper's figure 5d: {}.", model.name, cost_in_words(cost)),
+        std::exchange(any, true));
   }
 }
 
-void error_figure(const Run& run, const std::string& folder, std::vector<RunFigure>& figures) {
+void error_figure(const Run& run, RunPlots& plots) {
   std::vector<std::string> labels;
   for (const StoredCell& cell : run.cells)
     if (has_map(cell) && std::find(labels.begin(), labels.end(), cell.label) == labels.end())
@@ -261,8 +266,7 @@ void error_figure(const Run& run, const std::string& folder, std::vector<RunFigu
     colors.push_back("#d8a200");
   }
   const std::string setup = bars(rows) + "set ylabel 'remeshing error, 10^{-5} of the diagonal'\nset yrange [0:*]\n";
-  add_figure(figures, folder, "remesh-error",
-             figure_script("remesh-error", setup, plot_bars(labels, colors), kBarsWidth, 500),
+  add_figure(plots, "remesh-error", figure_script("remesh-error", setup, plot_bars(labels, colors), kBarsWidth, 500),
              "RMS distance of the uncoded remesh (the paper's Table 1); the level of the remesh decides it as much as "
              "the map.");
 }
