@@ -223,10 +223,10 @@ double line_ink(const std::array<double, 3>& values, const Fragment& fragment, d
   const double distance = std::abs(value - std::round(value)) / per_pixel;
   const double ink = std::clamp(0.5 * width + 0.5 - distance, 0.0, 1.0);
   // Spacing in pixels at which lines are drawn in full; below, their mean takes over.
-  constexpr double kFull = 5.0;
+  const double full = std::max(5.0, 1.25 * width);
   const double spacing = 1.0 / per_pixel;
   const double mean = std::min(1.0, width / spacing);
-  const double share = std::clamp((spacing - width) / (kFull - width), 0.0, 1.0);
+  const double share = std::clamp((spacing - width) / (full - width), 0.0, 1.0);
   return share * ink + (1.0 - share) * mean;
 }
 

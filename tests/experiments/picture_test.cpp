@@ -117,6 +117,9 @@ TEST_CASE("lines have their width in pixels, and fade into their mean where they
   CHECK(line_ink(values, fragment_at(0.998, kSlope), kWidth) == Approx(1.0));
   CHECK(line_ink(values, fragment_at(0.25, 0.5), 1.0) == Approx(0.375).margin(0.2));
   CHECK(line_ink(values, fragment_at(0.25, 0.0), kWidth) == 0.0);
+  // Lines as wide as their spacing cover everything, those wider than that of full ink keep their width.
+  CHECK(line_ink(values, fragment_at(0.5, 0.2), 5.0) == Approx(1.0));
+  CHECK(line_ink(values, fragment_at(0.1, 0.02), 10.0) == Approx(0.5));
 }
 
 TEST_CASE("patches are coloured where the map has them, in whatever chart a face is given") {
