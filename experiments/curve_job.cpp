@@ -89,7 +89,10 @@ class Job {
     save_points({});
     made("curve.csv");
     remove_stale(folder_, figure_files("overview"), {});
-    if (panels_.size() > 1) draw(result_.models.back(), "overview", panels_);
+    if (panels_.size() > kMostPlotPanels)
+      progress_.note(fmt::format("no overview is drawn of {} surfaces, more than {}", panels_.size(), kMostPlotPanels));
+    else if (panels_.size() > 1)
+      draw(result_.models.back(), "overview", panels_);
     for (const std::string& stem : earlier_) remove_stale(folder_, files_of(stem), result_.files);
     return std::move(result_);
   }

@@ -93,6 +93,7 @@ struct Begun {
   ChosenFeatures features;         ///< along which it is cut
   std::vector<int> base_vertices;  ///< of the surface, as the simplification behind `map` left them
   std::vector<OmegaRecord> omega;
+  std::optional<Vec3> unplaced;  ///< where there is no map, a vertex that found no place in the last one tried
 };
 
 /// What the methods on one base complex share.
@@ -238,15 +239,15 @@ void set_map(Begun<SmoothedMap>& begun, const Levels& levels, const Parameterize
   }
   const auto make = [&](const SimplifyResult& simplified) {
     begun.base_vertices = remaining_vertices(*levels.surface, simplified.removals);
-    return smooth_levels(simplified, smoothing, progress);
+    return smooth_levels(simplified, smoothing, progress, &begun.unplaced);
   };
   begun.map = join_levels(levels, make, progress);
 }
 
 /// The same for MAPS' map, whose vertices on feature curves go to their places, so that the map can be glued.
 void set_map(Begun<Atlas>& begun, const Levels& levels, const ParameterizeOptions&, Progress& progress) {
-  const auto make = [](const SimplifyResult& simplified) -> std::optional<SmoothedMap> {
-    const std::optional<OverlayMap> maps = maps_overlay(simplified);
+  const auto make = [&](const SimplifyResult& simplified) -> std::optional<SmoothedMap> {
+    const std::optional<OverlayMap> maps = maps_overlay(simplified, &begun.unplaced);
     if (!maps) return std::nullopt;
     return SmoothedMap{maps->coarsened().atlas, {}};
   };
@@ -264,9 +265,9 @@ void note_features(const ChosenFeatures& features, Progress& progress) {
 }
 
 /// Makes a map on the surface cut open along its features; without them where there are none, or no map of it could be
-/// made.
+/// made. `input`: the surface before edges were split. Throws Error(InvalidMap) where there is none either.
 template <class Map>
-Begun<Map> begin_map(Simplifications& simplifications, const ChosenFeatures& features,
+Begun<Map> begin_map(Simplifications& simplifications, const Mesh& input, const ChosenFeatures& features,
                      const ParameterizeOptions& options, Progress& progress) {
   Begun<Map> begun;
   begun.features = features;
@@ -282,7 +283,8 @@ Begun<Map> begin_map(Simplifications& simplifications, const ChosenFeatures& fea
   }
   begun.omega = simplifications.of_whole().base.simplified.omega;
   set_map(begun, simplifications.of_whole(), options, progress);
-  if (!begun.map) throw Error(Cause::InvalidMap, "no map of the surface could be made: its levels cannot be joined");
+  if (!begun.map)
+    refuse_map("no map of the surface could be made: a vertex found no place in it", begun.unplaced, input);
   return begun;
 }
 
@@ -295,8 +297,8 @@ Start make_start(const Mesh& mesh, const ChosenFeatures& chosen, const std::vect
   const auto smooth_ones = std::count(methods.begin(), methods.end(), Method::Gsp);
   Start start;
   if (smooth_ones < static_cast<int>(methods.size()))
-    start.maps = begin_map<Atlas>(simplifications, chosen, options, progress);
-  if (smooth_ones > 0) start.smooth = begin_map<SmoothedMap>(simplifications, chosen, options, progress);
+    start.maps = begin_map<Atlas>(simplifications, mesh, chosen, options, progress);
+  if (smooth_ones > 0) start.smooth = begin_map<SmoothedMap>(simplifications, mesh, chosen, options, progress);
   return start;
 }
 

@@ -10,7 +10,8 @@ namespace gsp {
 /// on the finest surface, which is cut along the edges of the complex. Vertices lie where MAPS carries them, but for
 /// those of pieces that would be too small for rounding (`PlanarRegion::relax`), and no face is folded. MAPS' programs
 /// carried the vertices alone and drew faces straight, which folds them where they cross patch edges. Nothing where a
-/// piece is too small all the same. O(V log V), with many pieces where edges of the complex wind about thin limbs.
-std::optional<OverlayMap> maps_overlay(const SimplifyResult& simplified);
+/// piece is too small all the same: `unplaced` then names the place in space of the vertex that could not go. O(V log
+/// V), with many pieces where edges of the complex wind about thin limbs.
+std::optional<OverlayMap> maps_overlay(const SimplifyResult& simplified, std::optional<Vec3>* unplaced = nullptr);
 
 }  // namespace gsp

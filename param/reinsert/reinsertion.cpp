@@ -24,10 +24,11 @@ class Reinsertion {
  public:
   Reinsertion(const RemovalRecord& decimation, const EditableAtlas& map) : map_(decimation, map), hole_(map_) {}
 
-  bool run() {
+  /// The vertex that found no place, after which nothing is done; none where all did.
+  std::optional<int> run() {
     for (int i = map_.decimation.size() - 1; i >= 0; --i)
-      if (!insert(i)) return false;
-    return true;
+      if (!insert(i)) return hole_.star.center;
+    return std::nullopt;
   }
   EditableAtlas finish() && { return std::move(map_).finish(); }
 
@@ -264,9 +265,13 @@ bool Reinsertion::insert(int removal) {
 
 }  // namespace
 
-std::optional<EditableAtlas> reinsert(const RemovalRecord& decimation, const EditableAtlas& map) {
+std::optional<EditableAtlas> reinsert(const RemovalRecord& decimation, const EditableAtlas& map,
+                                      std::optional<int>* unplaced) {
   Reinsertion reinsertion(decimation, map);
-  if (!reinsertion.run()) return std::nullopt;
+  if (const std::optional<int> vertex = reinsertion.run()) {
+    if (unplaced) *unplaced = vertex;
+    return std::nullopt;
+  }
   return std::move(reinsertion).finish();
 }
 

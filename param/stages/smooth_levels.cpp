@@ -78,9 +78,13 @@ void smooth_finer(EditableAtlas& map, const ParameterizeOptions& options, Progre
 }
 
 /// The vertices that a level took out, put back into its map. Nothing where one has no place.
-std::optional<EditableAtlas> put_back(const RemovalRecord& level, const EditableAtlas& map, Progress& progress) {
+std::optional<EditableAtlas> put_back(const RemovalRecord& level, const EditableAtlas& map, Progress& progress,
+                                      std::optional<Vec3>* unplaced) {
   const auto step = progress.step("put back vertices");
-  return reinsert(level, map);
+  std::optional<int> vertex;
+  std::optional<EditableAtlas> more = reinsert(level, map, &vertex);
+  if (vertex && unplaced) *unplaced = level.surface->mesh.positions[*vertex];
+  return more;
 }
 
 /// A map that can still be changed, and how it was made.
@@ -109,13 +113,13 @@ std::optional<SmoothedMap> smooth_coarsest_level(const SimplifyResult& simplifie
 }
 
 std::optional<SmoothedMap> smooth_levels(const SimplifyResult& simplified, const ParameterizeOptions& options,
-                                         Progress& progress) {
+                                         Progress& progress, std::optional<Vec3>* unplaced) {
   std::optional<EditableMap> coarsest = begin_coarsest(simplified, options, progress);
   if (!coarsest) return std::nullopt;
   EditableAtlas map = std::move(coarsest->map);
   for (auto level = simplified.finer.rbegin(); level != simplified.finer.rend(); ++level) {
     const auto finer = progress.step("finer levels");
-    std::optional<EditableAtlas> more = put_back(*level, map, progress);
+    std::optional<EditableAtlas> more = put_back(*level, map, progress, unplaced);
     if (!more) return std::nullopt;
     map = std::move(*more);
     if (!settle_creases(map.atlas, progress)) return std::nullopt;

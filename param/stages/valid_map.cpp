@@ -12,18 +12,16 @@ namespace gsp {
 
 namespace {
 
-/// The face of the surface before its edges were split, in the same coordinates, that a face of the split one lies in:
-/// from the middle of that its corners span the least area beyond its own. O(faces).
-int input_face(const Mesh& split, int face, const Mesh& input) {
-  Vec3 middle = Vec3::Zero();
-  for (int v : split.faces[face]) middle += split.positions[v] / 3.0;
+/// The face from a point to whose corners triangles span the least area beyond its own: a face that the point lies in,
+/// where there is one. O(faces).
+int face_at(const Vec3& point, const Mesh& input) {
   int found = -1;
   double least = 0.0;
   for (int f = 0; f < input.face_count(); ++f) {
     double excess = -2.0 * face_area(input, f);
     for (int k = 0; k < 3; ++k) {
-      const Vec3 a = input.positions[input.faces[f][k]] - middle,
-                 b = input.positions[input.faces[f][(k + 1) % 3]] - middle;
+      const Vec3 a = input.positions[input.faces[f][k]] - point,
+                 b = input.positions[input.faces[f][(k + 1) % 3]] - point;
       excess += a.cross(b).norm();
     }
     if (found >= 0 && excess >= least) continue;
@@ -45,6 +43,11 @@ std::optional<std::string> faults_of(const Parameterization& map) {
   return text.str();
 }
 
+void refuse_map(const std::string& sentence, const std::optional<Vec3>& at, const Mesh& input) {
+  if (!at) throw Error(Cause::InvalidMap, sentence);
+  throw Error(Cause::InvalidMap, sentence, Element::Face, face_at(*at, input));
+}
+
 void require_valid(const Parameterization& map, const Mesh& input) {
   const auto faults = faults_of(map);
   if (!faults) return;
@@ -54,8 +57,10 @@ void require_valid(const Parameterization& map, const Mesh& input) {
   const int vertex = check.first_wrong_angle >= 0 ? check.first_wrong_angle : check.first_misplaced;
   for (int f = 0; face < 0 && vertex >= 0 && f < map.surface.face_count(); ++f)
     if (std::count(map.surface.faces[f].begin(), map.surface.faces[f].end(), vertex) > 0) face = f;
-  if (face < 0) throw Error(Cause::InvalidMap, sentence);
-  throw Error(Cause::InvalidMap, sentence, Element::Face, input_face(map.surface, face, input));
+  if (face < 0) refuse_map(sentence, std::nullopt, input);
+  Vec3 middle = Vec3::Zero();
+  for (int v : map.surface.faces[face]) middle += map.surface.positions[v] / 3.0;
+  refuse_map(sentence, middle, input);
 }
 
 }  // namespace gsp

@@ -1,13 +1,47 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <memory>
 
 #include "mesh/shapes.h"
 #include "param/reinsert/reinsertion.h"
 #include "param/reinsert/visibility_kernel.h"
 #include "param/simplify/simplify.h"
+#include "param/stages/valid_map.h"
 #include "param_checks.h"
 
 using namespace gsp;
+
+TEST_CASE("a vertex that finds no place is named, and a refusal names a face that it is in") {
+  const Mesh mesh = shapes::torus(24, 12);
+  const auto surface = std::make_shared<const Surface>(mesh);
+  ParameterizeOptions options;
+  options.base_vertices = 12;
+  Progress progress;
+  SimplifyResult made = simplify(surface, options, mesh.vertex_count() / 2, progress);
+  REQUIRE(made.finer.size() == 1);
+  EditableAtlas map = made.map->coarsened();
+  // Neither the map nor the surface says where anything is.
+  std::fill(map.atlas.position.begin(), map.atlas.position.end(), Complex(std::nan(""), 0.0));
+  Mesh nowhere = mesh;
+  std::fill(nowhere.positions.begin(), nowhere.positions.end(), Vec3::Constant(std::nan("")));
+  made.finer.front().surface = std::make_shared<const Surface>(nowhere);
+  std::optional<int> unplaced;
+  CHECK_FALSE(reinsert(made.finer.front(), map, &unplaced));
+  REQUIRE(unplaced);
+  // It is one of those that the level took out, and stands where the surface has it.
+  const std::vector<int>& left = made.finer.front().coarse.vertex;
+  CHECK(std::find(left.begin(), left.end(), *unplaced) == left.end());
+  try {
+    refuse_map("no map", mesh.positions[*unplaced], mesh);
+  } catch (const Error& error) {
+    CHECK(error.cause() == Cause::InvalidMap);
+    REQUIRE(error.place().value_or(Place()).element == Element::Face);
+    const Triangle& face = mesh.faces[static_cast<std::size_t>(error.place()->index)];
+    CHECK(std::count(face.begin(), face.end(), *unplaced) == 1);
+  }
+  CHECK_THROWS_AS(refuse_map("no map", std::nullopt, mesh), Error);
+}
 
 TEST_CASE("vertices put back leave a map free of folds, from whatever level and map") {
   for (Cut& c : cuts()) {
