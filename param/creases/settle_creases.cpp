@@ -26,6 +26,7 @@ bool untangle(Atlas& atlas, Progress& progress) {
 bool settle_creases(Atlas& atlas, Progress& progress) {
   const Seams& seams = atlas.surface->seams;
   if (!seams.any()) return true;
+  const auto timed = progress.step("settle creases");
   Atlas settled = atlas;
   seat_boundary(settled);
   const std::vector<Complex> goal = boundary_by_arc_length(settled);
