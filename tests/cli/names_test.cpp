@@ -101,7 +101,8 @@ const std::vector<std::string> kCheapest = {"--budgets", "64,128", "--samples", 
 
 }  // namespace
 
-TEST_CASE("51 hostile names pass through sweep, report and curve: nothing runs, the page holds, few gnuplots start") {
+TEST_CASE("51 hostile names pass through sweep, report and curve: nothing runs, the page holds, few gnuplots start",
+          "[slow]") {
   const TemporaryFolder folder;
   fs::create_directory(folder.path() / "work");
   const Within within(folder.path() / "work", folder.path().string() + ":" + std::getenv("PATH"));

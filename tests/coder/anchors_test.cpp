@@ -62,7 +62,7 @@ TEST_CASE("Draco keeps the faces and gains precision with bits") {
   CHECK_THROWS_AS(draco_round_trip(Mesh{}, 10), Error);
 }
 
-TEST_CASE("decimation reaches each face count in one pass and stays near the surface") {
+TEST_CASE("decimation reaches each face count in one pass and stays near the surface", "[slow]") {
   Progress silent;
   for (const Decimation decimation : kDecimations) {
     const std::vector<Mesh> meshes = decimate(shapes::sphere(5), {20480, 5000, 1000, 200}, decimation, silent);

@@ -75,7 +75,7 @@ TEST_CASE("by default the whole stream is within 0.1 dB of what its remesh can s
     }
 }
 
-TEST_CASE("a whole stream that ends between two bits of precision is a prefix of the longer one's") {
+TEST_CASE("a whole stream that ends between two bits of precision is a prefix of the longer one's", "[slow]") {
   for (const SemiregularMesh& mesh : {samples::bumpy_sphere(5), samples::wavy_sheet(5)}) {
     const Bytes stream = encode(mesh, {}, silent);
     std::size_t shared = 0, longer_size = 0;
@@ -240,7 +240,7 @@ TEST_CASE("options and meshes that cannot be coded are refused") {
   CHECK(cause_of([&] { encode({}, {}, silent); }) == Cause::NoFaces);
 }
 
-TEST_CASE("the finest precision fits at the deepest level") {
+TEST_CASE("the finest precision fits at the deepest level", "[slow]") {
   SemiregularMesh mesh = samples::refine(shapes::tetrahedron(), 7, [](const Vec3& p) { return Vec3(p.normalized()); });
   EncodeOptions options;
   options.precision_bits = 24;

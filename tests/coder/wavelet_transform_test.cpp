@@ -105,7 +105,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the synthesis of every wavelet is well conditioned at every valence and beside boundaries") {
+TEST_CASE("the synthesis of every wavelet is well conditioned at every valence and beside boundaries", "[slow]") {
   struct Bound {
     Wavelet wavelet;
     double lattice, anywhere;

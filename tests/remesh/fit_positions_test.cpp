@@ -150,7 +150,7 @@ TEST_CASE("the fit is four times nearer to a paraboloid than sampling", "[slow]"
 }
 
 // By the lattice's symmetry the error of a saddle has no mean.
-TEST_CASE("of a saddle the samples are the fit already") {
+TEST_CASE("of a saddle the samples are the fit already", "[slow]") {
   CHECK(sampled_over_fitted(saddle, points_inside) == Approx(1.0).epsilon(0.01));
 }
 
@@ -269,7 +269,7 @@ TEST_CASE("folds, and coordinates of any size that is taken, leave the fit finit
   }
 }
 
-TEST_CASE("one and two threads fit the same bits") {
+TEST_CASE("one and two threads fit the same bits", "[slow]") {
   const Positions positions = GENERATE(Positions::Fitted, Positions::Closest);
   const Parameterization map = bumpy(shapes::grid(2, 3), 4);
   set_thread_count(1);

@@ -175,7 +175,7 @@ TEST_CASE("a plane's normal remesh has no details") {
   check_upright(map, remesh);
 }
 
-TEST_CASE("all vertices of a normal remesh of a sphere are normal, on the surface, and upright") {
+TEST_CASE("all vertices of a normal remesh of a sphere are normal, on the surface, and upright", "[slow]") {
   check_all_normal(mapped(shapes::icosahedron(), 3, on_sphere), 3);
 }
 
@@ -183,7 +183,8 @@ TEST_CASE("all vertices of a normal remesh of a torus are normal, on the surface
   check_all_normal(mapped(shapes::lattice_torus(24, 12), 2, on_torus, 0.1), 2);
 }
 
-TEST_CASE("between sheets and on rough ground no face of a normal remesh folds, and exceptions are points of the map") {
+TEST_CASE("between sheets and on rough ground no face of a normal remesh folds, and exceptions are points of the map",
+          "[slow]") {
   const auto lens = [](const Vec3& p) { return Vec3(on_sphere(p).cwiseProduct(Vec3(1.0, 1.0, 0.02))); };
   const auto cup = [](const Vec3& p) {
     Vec3 q = on_sphere(p).cwiseProduct(Vec3(1.0, 1.0, 0.05));
