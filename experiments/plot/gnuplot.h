@@ -23,7 +23,8 @@ struct FigureProgram {
 
 /// Draws figures of different names in one run of gnuplot, whose start takes longer than most figures. Writes
 /// FOLDER/NAME.gp for each, so that it can be restyled and drawn again; the figures appear whole or not at all, and are
-/// the same bits as alone where all are of one kind. Throws Error: ToolMissing where gnuplot is absent or fails, CannotWrite.
+/// the same bits as alone where all are of one kind. Throws Error: ToolMissing where gnuplot is absent or fails,
+/// CannotWrite.
 void draw_figures(const std::string& folder, const std::vector<FigureProgram>& figures);
 
 /// `draw_figures` of one. Returns `figure_files`.
