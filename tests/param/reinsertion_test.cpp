@@ -12,7 +12,9 @@
 
 using namespace gsp;
 
-TEST_CASE("a vertex that finds no place is named, and a refusal names a face that it is in") {
+#ifdef NDEBUG
+// A map that is nowhere breaks preconditions, which end the builds that check them.
+TEST_CASE("a vertex that finds no place is named") {
   const Mesh mesh = shapes::torus(24, 12);
   const auto surface = std::make_shared<const Surface>(mesh);
   ParameterizeOptions options;
@@ -32,13 +34,22 @@ TEST_CASE("a vertex that finds no place is named, and a refusal names a face tha
   // It is one of those that the level took out, and stands where the surface has it.
   const std::vector<int>& left = made.finer.front().coarse.vertex;
   CHECK(std::find(left.begin(), left.end(), *unplaced) == left.end());
-  try {
-    refuse_map("no map", mesh.positions[*unplaced], mesh);
-  } catch (const Error& error) {
-    CHECK(error.cause() == Cause::InvalidMap);
-    REQUIRE(error.place().value_or(Place()).element == Element::Face);
-    const Triangle& face = mesh.faces[static_cast<std::size_t>(error.place()->index)];
-    CHECK(std::count(face.begin(), face.end(), *unplaced) == 1);
+}
+#endif
+
+TEST_CASE("a refusal for want of a place names a face of the vertex") {
+  const Mesh mesh = shapes::torus(24, 12);
+  for (const int unplaced : {0, 17, mesh.vertex_count() - 1}) {
+    CAPTURE(unplaced);
+    try {
+      refuse_map("no map", mesh.positions[unplaced], mesh);
+      FAIL("refuse_map returned");
+    } catch (const Error& error) {
+      CHECK(error.cause() == Cause::InvalidMap);
+      REQUIRE(error.place().value_or(Place()).element == Element::Face);
+      const Triangle& face = mesh.faces[static_cast<std::size_t>(error.place()->index)];
+      CHECK(std::count(face.begin(), face.end(), unplaced) == 1);
+    }
   }
   CHECK_THROWS_AS(refuse_map("no map", std::nullopt, mesh), Error);
 }
