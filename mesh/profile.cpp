@@ -7,24 +7,14 @@
 #include <ctime>
 #include <fstream>
 
+#include "mesh/memory.h"
+
 namespace gsp {
 
 namespace {
 
 double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// Most memory since the process began, or since `begin_peak`.
-double peak_megabytes() {
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
-    double kibibytes = 0.0;
-    if (word == "VmHWM:" && status >> kibibytes) return 1024e-6 * kibibytes;
-  }
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return 1024e-6 * static_cast<double>(usage.ru_maxrss);
 }
 
 void begin_peak() { std::ofstream("/proc/self/clear_refs") << '5'; }  // proc(5)
@@ -45,7 +35,7 @@ double process_cpu_seconds() {
 /// What memory was at most since the last call belongs to every step under way.
 void Profile::take_peak() {
   if (!open_.empty()) {
-    const double peak = peak_megabytes();
+    const double peak = 1e-6 * peak_memory();
     for (const Open& open : open_) {
       double& most = nodes_[open.node].step.peak_megabytes;
       most = std::max(most, peak);

@@ -81,9 +81,7 @@ void draw_figures(const std::string& folder, const std::vector<FigureProgram>& f
   std::vector<std::string> programs;
   for (const auto& [name, script] : figures) {
     const std::string program = figure_files(name).back();
-    AtomicFile file(folder + "/" + program);
-    file.stream() << script;
-    file.commit();
+    write_file(folder + "/" + program, script);
     programs.push_back("../" + program);
   }
   if (figures.empty()) return;
@@ -97,11 +95,8 @@ void draw_figures(const std::string& folder, const std::vector<FigureProgram>& f
   }
   for (const FigureProgram& figure : figures) {
     const std::vector<std::string> files = figure_files(figure.name);
-    for (const std::string& picture : {files[0], files[1]}) {
-      AtomicFile drawn(folder + "/" + picture);
-      drawn.stream() << read_file(scratch.path() + "/" + picture);
-      drawn.commit();
-    }
+    for (const std::string& picture : {files[0], files[1]})
+      write_file(folder + "/" + picture, read_file(scratch.path() + "/" + picture));
   }
 }
 

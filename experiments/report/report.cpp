@@ -32,12 +32,6 @@ namespace fs = std::filesystem;
 
 using Json = nlohmann::ordered_json;
 
-void write_text(const std::string& path, const std::string& text) {
-  AtomicFile file(path);
-  file.stream() << text;
-  file.commit();
-}
-
 std::string view_name(std::size_t number) { return fmt::format("views/{}.js", number); }
 
 Json optional(const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(); }
@@ -84,7 +78,7 @@ class Report {
     }
     Json run = run_json(figures);
     make_printable(run);
-    write_text(result_.files.front(), report_page(run.dump()));
+    write_file(result_.files.front(), report_page(run.dump()));
     remove_earlier();
     return std::move(result_);
   }
@@ -145,7 +139,7 @@ class Report {
         make_folder(folder_ + "/views");
         const std::string name = view_name(views_.size());
         Progress named = progress_.within(model.name + ", " + cell->label);
-        write_text(folder_ + "/" + name,
+        write_file(folder_ + "/" + name,
                    fmt::format("gspView(\"{}\", {});\n", name, view_json(model, *cell, streams, named)));
         views_[{model.name, cell->label}] = name;
         result_.files.push_back(folder_ + "/" + name);

@@ -14,6 +14,7 @@
 #include "experiments/output/base64.h"
 #include "experiments/output/decibels.h"
 #include "experiments/output/quoting.h"
+#include "experiments/output/stream_file.h"
 #include "experiments/play/view_frame.h"
 #include "mesh/io.h"
 #include "mesh/read_file.h"
@@ -107,8 +108,7 @@ std::vector<CurvePoint> shown_points(const StoredCell& cell) {
 }
 
 SemiregularMesh decoded_point(const StoredCell& cell, const CurvePoint& point) {
-  const std::string file = read_file(cell.stream_file(point.bytes));
-  return decode({file.begin(), file.end()}, point.bytes);
+  return decode(read_stream(cell.stream_file(point.bytes)), point.bytes);
 }
 
 std::string positions_text(const std::vector<Vec3>& positions, const Eigen::AlignedBox3d& box) {

@@ -1,5 +1,4 @@
 #include "experiments/sweep/stage_runner.h"
-#include "experiments/output/stream_file.h"
 
 #include <algorithm>
 #include <chrono>
@@ -13,6 +12,7 @@
 #include "experiments/curve/map_numbers.h"
 #include "experiments/curve/stages.h"
 #include "experiments/external/run_tool.h"
+#include "experiments/output/stream_file.h"
 #include "experiments/store/artefacts.h"
 #include "experiments/sweep/reference_task.h"
 #include "experiments/version.h"
