@@ -313,7 +313,7 @@ TEST_CASE("levels out of range are refused") {
   CHECK_THROWS_AS(remesh(map, {11}, silent), Error);
 }
 
-TEST_CASE("one and two threads give the same bits") {
+TEST_CASE("one and two threads give the same bits", "[slow]") {
   Parameterization map = exact_maps::quadrisected(shapes::icosahedron(), 4);
   exact_maps::jitter(map, 0.5, 4, 6);
   Progress silent;
