@@ -324,7 +324,8 @@ void Command::replicate_option(ParameterizeOptions& options) {
 
 void Command::remesh_options(RemeshOptions& options) {
   axis_word("level", &CellOptions::remesh, options,
-            "quadrisections of the base; auto is the first level with as many faces as the input, and 32768");
+            "quadrisections of the base; auto is the first level with as many faces as the input, and 32768; of kind "
+            "parametric a finer one where 16 KB of the stream would be cut off by that");
   axis_word("predict", &CellOptions::remesh, options,
             "of normal kinds, what details are added to: name the wavelet that codes them; butterfly-lifted with "
             "fitted positions only, loop with sampled ones");

@@ -5,6 +5,7 @@
 
 #include "cli/options.h"
 #include "cli/print.h"
+#include "experiments/base/level_by_rate.h"
 #include "experiments/curve/targets.h"
 #include "param/map/param_file.h"
 #include "remesh/semiregular_file.h"
@@ -24,7 +25,7 @@ int run_remesh(const RemeshArguments& options, Context& context) {
   const Parameterization map = read_parameterization(options.map);
   const SemiregularMesh result = options.max_error > 0.0
                                      ? remesh_to_error(map, options.max_error, options.remesh, progress)
-                                     : remesh(map, options.remesh, progress);
+                                     : remesh_by_rate(map, options.remesh, progress);
   write_semiregular(options.output, result, provenance_of(options.remesh));
   print_report(context, {{"level", result.level},
                          {"kind", remesh_kind_name(options.remesh.kind)},

@@ -3,12 +3,13 @@
 #include <limits>
 
 #include "coder/codec.h"
+#include "experiments/base/level_by_rate.h"
 #include "experiments/curve/targets.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/call.h"
 #include "remesh/recover_levels.h"
-#include "remesh/remesh.h"
+#include "remesh/remesh_options.h"
 #include "remesh/semiregular_file.h"
 
 namespace gsp::python {
@@ -37,7 +38,7 @@ Remesh remesh_map(const Map& map, const py::kwargs& keywords) {
   Remesh result;
   call.run([&](Progress& progress) {
     result.mesh = max_error ? remesh_to_error(map.map, *max_error, cell.remesh, progress)
-                            : remesh(map.map, cell.remesh, progress);
+                            : remesh_by_rate(map.map, cell.remesh, progress);
   });
   result.provenance = provenance_of(cell.remesh);
   return result;

@@ -2,32 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
 
 #include "coder/anchors.h"
-#include "coder/codec.h"
+#include "experiments/base/map_worth.h"
 #include "mesh/topology.h"
-#include "metrics/psnr.h"
-#include "metrics/surface_distance.h"
-#include "param/parameterize.h"
-#include "remesh/remesh.h"
-#include "remesh/semiregular.h"
+#include "param/creases/feature_budget.h"
 
 namespace gsp {
 
 namespace {
 
-constexpr int kFaces = 2500;            // of the stand-in
-constexpr double kRefinement = 8.0;     // faces of a remesh for each of the stand-in, within a factor of two
-constexpr std::size_t kSamples = 5000;  // of a distance: 0.1 dB
-constexpr std::size_t kBudgets[] = {1024, 2048, 4096, 8192};
+constexpr int kFaces = 5000;            // of the stand-in
+constexpr double kRefinement = 16.0;    // faces of a remesh for each of the stand-in, within a factor of two
 constexpr int kMostAroundVertex = 256;  // faces; the time of a decimation grows with the cube of that
-constexpr double kOctave = 12.0;        // dB lost for each halving of a budget that does not hold a header
+constexpr double kFewestFaces = 32768;  // of remeshes of the surface itself
 
 constexpr double kSmallest = 15.0, kLargest = 1600.0;  // vertices, of the ladder
 constexpr int kFewestPerBase = 8;                      // vertices of the surface for each of the base
+constexpr double kFewestPerCreased = 4.0;              // the same where feature curves need room
+constexpr double kHopeless = 2.0;                      // dB behind a base without features, where none has enough room
 constexpr double kLarger = 1.2;                        // than asked for is another size
 constexpr int kFirst[] = {2, 4, 6};                    // steps of the ladder: 30, 60, 120
 
@@ -40,16 +37,22 @@ int largest_valence(const Mesh& mesh) {
   return *std::max_element(valence.begin(), valence.end());
 }
 
+/// The surface after decimation.
+Mesh stand_in(const Mesh& mesh, Progress& progress) {
+  if (mesh.face_count() <= kFaces) return mesh;
+  // Flat fans have no volume to go by, and some surfaces no collapse that is left.
+  for (const Decimation decimation : {Decimation::Volume, Decimation::Quadrics}) {
+    std::vector<Mesh> fewer = decimate(mesh, {kFaces}, decimation, progress);
+    if (!fewer.empty()) return std::move(fewer.front());
+  }
+  return mesh;
+}
+
 /// Judges sizes on a stand-in.
 class Judge {
  public:
   Judge(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress)
-      : mesh_(stand_in(mesh, progress)), tree_(mesh_), options_(options), progress_(progress) {
-    options_.method = Method::Gsp;
-    options_.replicate = 0;
-    options_.objective = Objective::Distortion;
-    options_.relaxations = 0;
-    options_.base_edges = BaseEdges::Keep;
+      : worth_(of_stand_in(stand_in(mesh, progress))), options_(options), progress_(progress) {
     options_.features.reset();  // edges of the surface, which the stand-in does not have
     const double most = std::min(kLargest, mesh.vertex_count() / static_cast<double>(kFewestPerBase));
     while (size_at(last_ + 1) <= most) ++last_;
@@ -68,53 +71,22 @@ class Judge {
   std::vector<BaseTried> tried;
 
  private:
-  static Mesh stand_in(const Mesh& mesh, Progress& progress) {
-    if (mesh.face_count() <= kFaces) return mesh;
-    // Flat fans have no volume to go by, and some surfaces no collapse that is left.
-    for (const Decimation decimation : {Decimation::Volume, Decimation::Quadrics}) {
-      std::vector<Mesh> fewer = decimate(mesh, {kFaces}, decimation, progress);
-      if (!fewer.empty()) return std::move(fewer.front());
-    }
-    return mesh;
+  static MapWorth of_stand_in(Mesh mesh) {
+    const double faces = kRefinement * mesh.face_count() / 2.0;
+    return MapWorth(std::move(mesh), kRatedBytes, faces);
   }
 
-  std::optional<double> worth(int size) try {
-    Progress silent;
+  std::optional<double> worth(int size) {
     options_.base_vertices = size;
-    const ParameterizeResult map = parameterize(mesh_, options_, silent);
-    RemeshOptions remeshing;
-    remeshing.level = first_level_with(map.map.base.face_count(), kRefinement * mesh_.face_count() / 2.0);
-    EncodeOptions coding;
-    coding.wavelet = Wavelet::ButterflyLifted;
-    const Bytes stream = encode(remesh(map.map, remeshing, silent), coding, silent);
-    tried.push_back({size, map.map.base.vertex_count(), mean_psnr(stream)});
-    if (tried.back().base_vertices > kLarger * size) {
-      least_ = std::max(least_, tried.back().base_vertices);
-      return std::nullopt;
-    }
-    return tried.back().psnr_db;
-  } catch (const Error& error) {
-    if (error.cause() == Cause::Cancelled) throw;
+    const std::optional<MapWorth::Value> value = worth_.of(options_, progress_);
+    if (!value) return std::nullopt;
+    tried.push_back({size, value->base_vertices, value->psnr_db});
+    if (value->base_vertices <= kLarger * size) return value->psnr_db;
+    least_ = std::max(least_, value->base_vertices);
     return std::nullopt;
   }
 
-  double mean_psnr(const Bytes& stream) const {
-    Progress silent;
-    DistanceOptions sampling;
-    sampling.samples = kSamples;
-    const std::size_t least = header_bytes(stream);
-    double sum = 0.0;
-    for (std::size_t budget : kBudgets) {
-      const std::size_t bytes = std::max(budget, least);
-      const Mesh decoded = decode(stream, bytes).mesh();
-      sum += diagonal_psnr(surface_distance(mesh_, tree_, decoded, sampling, silent)).db -
-             kOctave * std::log2(static_cast<double>(bytes) / static_cast<double>(budget));
-    }
-    return sum / static_cast<double>(std::size(kBudgets));
-  }
-
-  const Mesh mesh_;
-  const SurfaceTree tree_;
+  const MapWorth worth_;
   ParameterizeOptions options_;
   Progress& progress_;
   int last_ = -1;
@@ -158,25 +130,58 @@ BaseByRate base_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Pr
 
 namespace {
 
-/// The next sizes up to one with room for all features, which the stand-in may have lost.
+/// The next size of the ladder with room for all features, or the largest that there may be.
 int with_room_for_features(const Mesh& mesh, ParameterizeOptions options) {
-  const int chosen = options.base_vertices;
-  while (choose_features(mesh, options).given_way > 0) {
-    options.base_vertices = static_cast<int>(std::lround(std::numbers::sqrt2 * options.base_vertices));
-    if (options.base_vertices > mesh.vertex_count() / kFewestPerBase) return chosen;
-  }
+  const int most = static_cast<int>(std::min<double>(kLargest, mesh.vertex_count() / kFewestPerCreased));
+  while (options.base_vertices < most && choose_features(mesh, options).given_way > 0)
+    options.base_vertices = std::min(most, static_cast<int>(std::lround(std::numbers::sqrt2 * options.base_vertices)));
   return options.base_vertices;
 }
 
 }  // namespace
 
+ParameterizeOptions with_features_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress) {
+  if (choose_features(mesh, options).given_way == 0) return options;
+  const auto step = progress.step("choose features by rate");
+  // The stand-in may have lost curves, so the surface itself is judged.
+  const MapWorth worth(mesh, kRatedBytes, kFewestFaces);
+  constexpr double kNoMap = -std::numeric_limits<double>::infinity();
+  const auto psnr = [&](const ParameterizeOptions& candidate) {
+    const std::optional<MapWorth::Value> value = worth.of(candidate, progress);
+    return value ? value->psnr_db : kNoMap;
+  };
+  ParameterizeOptions none = options;
+  none.feature_degrees = kNoFeatures;
+  const bool automatic = !options.features && options.feature_degrees == kAutoFeatures;
+  const double without = automatic ? psnr(none) : kNoMap;
+
+  ParameterizeOptions chosen = options, next = options;
+  double best = psnr(options);
+  const auto is_better = [&](int size) {
+    next.base_vertices = size;
+    const double db = psnr(next);
+    if (db <= best) return false;
+    best = db;
+    chosen = next;
+    return true;
+  };
+  if (best > without - kHopeless) {
+    const int most = with_room_for_features(mesh, options);
+    while (next.base_vertices < most && is_better(std::min(most, 2 * next.base_vertices))) continue;
+    if (next.base_vertices < most) is_better(most);  // between some curves and all there may be a dip
+  }
+  if (without <= best) return chosen;
+  progress.note("feature curves, for which the base has too little room, cost more bytes than they save: none is kept");
+  return none;
+}
+
 ParameterizeOptions with_base_by_rate(const Mesh& mesh, ParameterizeOptions options, Progress& progress) {
   if (options.base_vertices != kBaseByRate) return options;
   const auto step = progress.step("choose base by rate");
   options.base_vertices = base_by_rate(mesh, options, progress).base_vertices;
-  if (options.base_vertices != kBaseByOmega) options.base_vertices = with_room_for_features(mesh, options);
-  if (options.base_vertices != kBaseByOmega)
-    progress.note("by rate the base is to have " + std::to_string(options.base_vertices) + " vertices");
+  if (options.base_vertices == kBaseByOmega) return options;
+  options = with_features_by_rate(mesh, options, progress);
+  progress.note("by rate the base is to have " + std::to_string(options.base_vertices) + " vertices");
   return options;
 }
 

@@ -22,16 +22,24 @@ struct BaseByRate {
 };
 
 /// The size of base whose streams are best at equal bytes. Sizes 15, 21, 30, ... (steps of √2) are judged on a stand-in
-/// of about 2,500 faces, the surface after decimation: parameterized without corner relaxation and flips of base edges,
-/// remeshed, encoded with lifted Butterfly, decoded at 1, 2, 4 and 8 KB and measured. From 30, 60 and 120 the search
-/// climbs to the best of the ladder; sizes at which the simplification cannot arrive are passed over. Ranks of the
-/// stand-in agree with those of whole curves (bench/README.md, "The base by rate"). Of `options` gamma, mu, weights
-/// and feature_degrees count. The same result for any number of threads. About 1 CPU s a size below 200, five to seven
-/// sizes, and the decimation. Throws Error: Cancelled, what `require_parameterizable` throws.
+/// of about 5,000 faces, the surface after decimation: parameterized without corner relaxation and flips of base edges,
+/// remeshed, encoded with lifted Butterfly, decoded at 1, 2, 4, 8 and 16 KB and measured (map_worth.h). From 30, 60 and
+/// 120 the search climbs to the best of the ladder; sizes at which the simplification cannot arrive are passed over.
+/// How far the choice is behind the best size of whole curves: bench/README.md, "The base by rate". Of `options` gamma,
+/// mu, weights and feature_degrees count. The same result for any number of threads. About 1 CPU s a size below 200,
+/// five to seven sizes, and the decimation. Throws Error: Cancelled, what `require_parameterizable` throws.
 BaseByRate base_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress);
 
-/// The options as they are, but with the size chosen where `base_vertices` is `kBaseByRate`; `progress` notes it. It is
-/// larger where the surface's features ask for more room, up to an eighth of its vertices.
+/// Where feature curves give way in a base of the size asked for, the size and the features that are worth the most:
+/// with `kAutoFeatures` that size without features; that size with them; and unless it is 2 dB behind, twice as many
+/// vertices and so on as long as that is better, and one with room for all curves, but at most a quarter of the
+/// surface's vertices and 1,600. Judged at 1 to 16 KB on the surface itself (map_worth.h), a map each. The options as
+/// they are where none gives way. `progress` notes where features are given up. Throws what `choose_features` throws,
+/// Error(Cancelled).
+ParameterizeOptions with_features_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress);
+
+/// The options as they are, but with the size chosen, and with it the features by `with_features_by_rate`, where
+/// `base_vertices` is `kBaseByRate`; `progress` notes it.
 ParameterizeOptions with_base_by_rate(const Mesh& mesh, ParameterizeOptions options, Progress& progress);
 
 }  // namespace gsp

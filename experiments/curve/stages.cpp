@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "experiments/base/level_by_rate.h"
 #include "experiments/curve/anchor_curves.h"
 #include "mesh/parallel.h"
 
@@ -39,7 +40,7 @@ MeasuredRemesh measured(SemiregularMesh remesh, const Meter& meter, std::size_t 
 
 MeasuredRemesh measured_remesh(const Parameterization& map, const RemeshOptions& options, const Meter& meter,
                                std::size_t samples, Progress& progress) {
-  return measured(remesh(map, options, progress), meter, samples, progress);
+  return measured(remesh_by_rate(map, options, progress), meter, samples, progress);
 }
 
 std::vector<CurvePoint> decoded_curve(const Bytes& stream, const std::vector<std::size_t>& wanted, const Meter& meter,

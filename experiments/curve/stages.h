@@ -27,7 +27,7 @@ struct MeasuredRemesh {
 /// Throws what `surface_distance` throws.
 MeasuredRemesh measured(SemiregularMesh remesh, const Meter& meter, std::size_t samples, Progress& progress);
 
-/// Throws what `remesh` and `surface_distance` throw.
+/// At an automatic level by `remesh_by_rate`. Throws what `remesh` and `surface_distance` throw.
 MeasuredRemesh measured_remesh(const Parameterization& map, const RemeshOptions& options, const Meter& meter,
                                std::size_t samples, Progress& progress);
 

