@@ -68,7 +68,7 @@ TEST_CASE("a surface that cannot be parameterized is refused before a base is lo
   CHECK_THROWS_AS(base_by_rate(broken, {}, progress), Error);
 }
 
-TEST_CASE("a base without room for all features grows where that is worth it") {
+TEST_CASE("a base without room for all features grows where that is worth it", "[slow]") {
   // 8 corners, for which a base of 12 has no room, and one of 24 has; with them the box is met exactly.
   const Mesh box = shapes::box(3);
   Progress progress;

@@ -56,7 +56,7 @@ Rates rates(const Parameterization& map, int level) {
 
 }  // namespace
 
-TEST_CASE("the level by rate is the finer one where the automatic one cuts off 16 KB") {
+TEST_CASE("the level by rate is the finer one where the automatic one cuts off 16 KB", "[slow]") {
   // Maps that run across sharp rims, where the automatic level ends 0.3 dB over 16 KB and the next one codes 0.4 dB
   // better.
   for (const Parameterization& map :
@@ -70,7 +70,8 @@ TEST_CASE("the level by rate is the finer one where the automatic one cuts off 1
   }
 }
 
-TEST_CASE("the level by rate is the automatic one where 16 KB are far from the remesh, the same for any threads") {
+TEST_CASE("the level by rate is the automatic one where 16 KB are far from the remesh, the same for any threads",
+          "[slow]") {
   const Parameterization map = map_of(shapes::bumpy_sphere(4), 12, kAutoFeatures);
   const int before = thread_count();
   set_thread_count(1);
