@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::array<std::uint8_t, 3> kMagic = {'P', 'G', 'C'};
 constexpr std::size_t kChecksumBegin = kMagic.size() + 1, kChecksumEnd = kChecksumBegin + 4;
-constexpr std::uint8_t kOldestVersion = 6, kSteadyVersion = 8, kCreaseVersion = 8, kByAreaVersion = 9;
+constexpr std::uint8_t kOldestVersion = 6, kSteadyVersion = 8, kCreaseVersion = 8, kByAreaVersion = 9,
+                       kCarriedVersion = 10;
 /// In the byte of the wavelet: creases follow the base's faces.
 constexpr int kCreased = 8;
 /// Sums of it and a control point's steps are exact in double precision, multiplied by a grid of 3 bits too.
@@ -149,7 +150,7 @@ Bytes write_header(const StreamHeader& header, const Bytes& connectivity) {
   sized.insert(sized.end(), rest.begin(), rest.end());
   Bytes bytes(kChecksumEnd + sized.size());
   std::copy(kMagic.begin(), kMagic.end(), bytes.begin());
-  bytes[kMagic.size()] = kStreamVersion;
+  bytes[kMagic.size()] = header.kind == StreamKind::Displaced ? kCarriedVersion : kByAreaVersion;
   std::copy(sized.begin(), sized.end(), bytes.begin() + kChecksumEnd);
   seal_header(bytes);
   return bytes;
@@ -181,6 +182,7 @@ StreamHeader read_header(const std::uint8_t* begin, const std::uint8_t* end) {
   StreamHeader header;
   if (begin[kMagic.size()] < kByAreaVersion) header.frames = FrameRule::Steady;
   if (begin[kMagic.size()] < kSteadyVersion) header.frames = FrameRule::Mean;
+  if (begin[kMagic.size()] < kCarriedVersion) header.across = AcrossRule::AtBoundary;
   const int transform = parser.byte();
   const bool creased = begin[kMagic.size()] >= kCreaseVersion && (transform & kCreased) != 0;
   const int wavelet = (transform & 15) - (creased ? kCreased : 0);

@@ -8,6 +8,7 @@
 #include "coder/base_connectivity.h"
 #include "coder/codec.h"
 #include "coder/displaced/control_points.h"
+#include "remesh/filters/displacement.h"
 #include "remesh/filters/local_frames.h"
 
 namespace gsp {
@@ -20,9 +21,10 @@ enum class StreamKind : std::uint8_t {
 };
 inline constexpr int kStreamKinds = 3;
 
-/// The version that is written. Those of 8 and 7, which have frames of their own, the latter no creases, and of 6, all
+/// The version that is written of displaced kinds; the others are those of 9. Of 9, displaced ones have boundaries that
+/// carry nothing along. Those of 8 and 7, which have frames of their own, the latter no creases, and of 6, all
 /// parametric, are read too.
-inline constexpr std::uint8_t kStreamVersion = 9;
+inline constexpr std::uint8_t kStreamVersion = 10;
 
 /// Everything that a decoder needs before the first bit-plane. On disk (`*.pgc`):
 ///
@@ -38,7 +40,8 @@ struct StreamHeader {
   StreamKind kind = StreamKind::Parametric;
   Wavelet wavelet = Wavelet::Loop;
   int tangential_ratio = 4;
-  FrameRule frames = FrameRule::ByArea;  ///< follows from the version
+  FrameRule frames = FrameRule::ByArea;     ///< follows from the version
+  AcrossRule across = AcrossRule::Carried;  ///< follows from the version
   int level = 0;
   int base_planes = 0;
   int detail_planes = 0;

@@ -134,7 +134,8 @@ SemiregularMesh decode_displaced(const StreamHeader& header, int level, int area
   const ScalarIntegers known = decode_scalars(structure.forest, header.level + 1, header.detail_planes, begin, end);
   const Displacements displacements = structure.field.synthesis(dequantized(known, weights, header.step_exponent));
   SemiregularMesh mesh{level, header.base.vertices, header.base.faces,
-                       displaced_points(smooth_surface(structure.levels, control.points), displacements)};
+                       displaced_points(structure.levels, smooth_surface(structure.levels, control.points),
+                                        displacements, header.across)};
   mesh.control = std::move(control);
   return mesh;
 }

@@ -8,6 +8,7 @@
 #include "mesh/error.h"
 #include "remesh/displaced/control_fit.h"
 #include "remesh/displaced/displacement_fit.h"
+#include "remesh/fold_guard.h"
 
 namespace gsp {
 
@@ -19,8 +20,28 @@ struct Attempt {
   SmoothSurface surface;
   Displacements displacements;
   int missed = 0;
-  std::vector<double> errors;  ///< #F of the base, mean squared distance of the samples
+  std::vector<double> errors;  ///< #F of the base, mean squared distance, in the worse direction
   double error = std::numeric_limits<double>::infinity();
+};
+
+/// Weighted means over base faces.
+class PatchMeans {
+ public:
+  explicit PatchMeans(int patches) : sums_(patches, 0.0), weights_(patches, 0.0) {}
+  void add(int patch, double weight, double value) {
+    sums_[patch] += weight * value;
+    weights_[patch] += weight;
+  }
+  /// On coarse levels a patch may have no sample.
+  double mean(std::size_t patch) const { return weights_[patch] > 0.0 ? sums_[patch] / weights_[patch] : 0.0; }
+  double sum(const std::vector<double>& areas) const {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < areas.size(); ++p) sum += areas[p] * mean(p);
+    return sum;
+  }
+
+ private:
+  std::vector<double> sums_, weights_;
 };
 
 class DisplacedRemesher {
@@ -30,6 +51,7 @@ class DisplacedRemesher {
       : options_(options), unit_(unit), all_levels_(levels_of(surface)), extra_(surface.level - level) {
     levels_.assign(all_levels_.begin(), all_levels_.begin() + level + 1);
     for (const Vec3& p : surface.positions) dense_.push_back(p / unit);
+    measure_areas();
     grid_ =
         control_grid_below(bounding_box_diagonal({dense_, all_levels_.back().faces}) / std::exp2(options.control_bits));
   }
@@ -59,6 +81,19 @@ class DisplacedRemesher {
   static std::vector<SubdivisionLevel> levels_of(const SemiregularMesh& mesh) {
     return subdivision_levels(mesh.base_vertices, mesh.base_faces, mesh.level);
   }
+  void measure_areas() {
+    const SubdivisionLevel& level = all_levels_.back();
+    areas_.assign(levels_.front().face_count(), 0.0);
+    const int shift = 2 * static_cast<int>(all_levels_.size() - 1);
+    double sum = 0.0;
+    for (int f = 0; f < level.face_count(); ++f) {
+      const double area = doubled_area(level.faces[f], dense_).norm();
+      areas_[f >> shift] += area;
+      sum += area;
+    }
+    for (double& area : areas_) area /= sum;
+  }
+
   const SubdivisionLevel& finest() const { return levels_.back(); }
 
   Attempt try_once(const ControlMap& map, const FitTarget& target, const ControlFitOptions& control_options) const {
@@ -70,13 +105,14 @@ class DisplacedRemesher {
       for (double& x : p) x = grid_ * std::nearbyint(x / grid_);
     attempt.surface = smooth_surface(levels_, attempt.control);
     if (options_.positions == Positions::Sampled) {
-      PiercedDisplacements pierced = pierce_target(finest(), attempt.surface, target);
+      PiercedDisplacements pierced = pierce_target(levels_, attempt.surface, target);
       attempt.displacements = std::move(pierced.displacements);
       attempt.missed = pierced.missed;
     } else {
-      attempt.displacements = displacements_of(attempt.surface, fitted_positions(attempt.surface, target, samples));
+      attempt.displacements =
+          displacements_of(levels_, attempt.surface, fitted_positions(attempt.surface, target, samples));
     }
-    measure(attempt, samples, by_map);
+    measure(attempt, target, samples, by_map);
     return attempt;
   }
 
@@ -88,29 +124,37 @@ class DisplacedRemesher {
     DisplacementFitOptions then{5e-3, 0.01, 0.25, 10, 50.0};
     if (options_.positions == Positions::Closest) then.stiffness /= 10.0;
     std::vector<Vec3> moves(surface.points.size(), Vec3::Zero());
-    moves = fit_displacements(finest(), surface, target, kFirst, samples, moves);
-    moves = fit_displacements(finest(), surface, target, then, samples, moves);
+    moves = fit_displacements(levels_, surface, target, kFirst, samples, moves);
+    moves = fit_displacements(levels_, surface, target, then, samples, moves);
     for (std::size_t v = 0; v < moves.size(); ++v) moves[v] += surface.points[v];
     return moves;
   }
 
-  void measure(Attempt& attempt, std::vector<SurfaceSample>& samples, const std::vector<SurfaceSample>& by_map) const {
-    const std::vector<Vec3> points = displaced_points(attempt.surface, attempt.displacements);
+  /// The mean squared distance over each base face and over all, in the worse of both directions: few vertices that lie
+  /// off the surface can weigh more in a remesh's error than all of the surface's distance from it.
+  void measure(Attempt& attempt, const FitTarget& target, std::vector<SurfaceSample>& samples,
+               const std::vector<SurfaceSample>& by_map) const {
+    const std::vector<Vec3> points = displaced_points(levels_, attempt.surface, attempt.displacements);
     const int shift = 2 * static_cast<int>(levels_.size() - 1);
-    std::vector<double> weights(levels_.front().face_count(), 0.0);
-    attempt.errors.assign(weights.size(), 0.0);
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      const int patch = by_map[i].place.face >> shift;
-      attempt.errors[patch] +=
-          samples[i].weight * walk_to_nearest(finest(), points, samples[i].point, samples[i].place);
-      weights[patch] += samples[i].weight;
+    PatchMeans forward(levels_.front().face_count()), backward = forward;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      forward.add(by_map[i].place.face >> shift, samples[i].weight,
+                  walk_to_nearest(finest(), points, samples[i].point, samples[i].place));
+    // Of the remesh its edges' midpoints, weighed by the area beside them: faces that jut out are large.
+    std::vector<LevelPlace> places = target.vertex_places(finest().vertex_count);
+    for (int e = 0; e < finest().edge_count(); ++e) {
+      const auto [a, b] = finest().edges[e];
+      LevelPlace place = places[a];
+      const double squared = walk_to_nearest(target.level, target.positions, 0.5 * (points[a] + points[b]), place);
+      for (int f : finest().edge_faces[e]) {
+        if (f < 0) continue;
+        backward.add(f >> shift, doubled_area(finest().faces[f], points).norm(), squared);
+      }
     }
-    attempt.error = 0.0;
-    for (std::size_t f = 0; f < weights.size(); ++f) {
-      // Samples belong to one of the base faces around them, so that on coarse levels one may have none.
-      if (weights[f] > 0.0) attempt.errors[f] /= weights[f];
-      attempt.error += attempt.errors[f];
-    }
+    attempt.errors.resize(levels_.front().face_count());
+    for (std::size_t f = 0; f < attempt.errors.size(); ++f)
+      attempt.errors[f] = std::max(forward.mean(f), backward.mean(f));
+    attempt.error = std::max(forward.sum(areas_), backward.sum(areas_));
   }
 
   /// Stiffens base faces that are much farther away than others, with the ones around them; false where there are none.
@@ -137,7 +181,7 @@ class DisplacedRemesher {
 
   SemiregularMesh result(Attempt attempt) const {
     SemiregularMesh mesh{static_cast<int>(levels_.size()) - 1, levels_.front().vertex_count, levels_.front().faces,
-                         displaced_points(attempt.surface, attempt.displacements)};
+                         displaced_points(levels_, attempt.surface, attempt.displacements)};
     for (Vec3& p : mesh.positions) p *= unit_;
     for (Vec3& p : attempt.control) p *= unit_;
     mesh.control = {std::move(attempt.control), unit_ * grid_};
@@ -150,6 +194,7 @@ class DisplacedRemesher {
   std::vector<SubdivisionLevel> levels_;  ///< of the remesh
   const int extra_;
   std::vector<Vec3> dense_;
+  std::vector<double> areas_;  ///< #F of the base, of the target's patches over that of all
   double grid_ = 0.0;
 };
 

@@ -11,10 +11,11 @@ namespace {
 
 class DisplacementFit {
  public:
-  DisplacementFit(const SubdivisionLevel& finest, const SmoothSurface& surface, const FitTarget& target,
+  DisplacementFit(const std::vector<SubdivisionLevel>& levels, const SmoothSurface& surface, const FitTarget& target,
                   const DisplacementFitOptions& options, std::vector<SurfaceSample>& samples,
                   const std::vector<Vec3>& start)
-      : finest_(finest),
+      : levels_(levels),
+        finest_(levels.back()),
         surface_(surface),
         target_(target),
         options_(options),
@@ -22,15 +23,17 @@ class DisplacementFit {
         start_(start),
         moves_(start),
         free_(start.size(), 1),
-        places_(target.vertex_places(finest.vertex_count)),
+        places_(target.vertex_places(finest_.vertex_count)),
         squared_(samples.size()),
         squared_back_(start.size()),
-        reach_(longest_edges(finest, surface.points)) {
+        reach_(longest_edges(finest_, surface.points)) {
     for (double& reach : reach_) reach *= options.reach;
   }
 
   std::vector<Vec3> run() {
-    double energy = energy_at(moves_);
+    carried_ = carried_by(moves_);
+    find_places(moves_);
+    double energy = energy_of(moves_, carried_);
     for (int round = 0; round < options_.most_rounds; ++round) {
       const double before = energy;
       if (!step(energy) || energy > (1.0 - options_.enough) * before) break;
@@ -45,8 +48,21 @@ class DisplacementFit {
     return options_.tangential * (Eigen::Matrix3d::Identity() - n * n.transpose() - c * c.transpose());
   }
 
-  /// Also moves samples and vertices to their nearest places there.
-  double energy_at(const std::vector<Vec3>& moves) {
+  /// Where the boundary's part of moves leaves the vertices inside.
+  std::vector<Vec3> carried_by(const std::vector<Vec3>& moves) const {
+    std::vector<double> across(moves.size());
+    for (std::size_t v = 0; v < across.size(); ++v) across[v] = surface_.conormals[v].dot(moves[v]);
+    return moves_across(levels_, surface_, across);
+  }
+
+  /// Lets vertices inside go on with the boundary from where `carried_` has left them.
+  void follow(std::vector<Vec3>& moves, const std::vector<Vec3>& carried) const {
+    for (std::size_t v = 0; v < moves.size(); ++v)
+      if (surface_.conormals[v].isZero(0.0)) moves[v] += carried[v] - carried_[v];
+  }
+
+  /// Moves samples and vertices to their nearest places, which `energy_of` then takes.
+  void find_places(const std::vector<Vec3>& moves) {
     positions_ = surface_.points;
     for (std::size_t v = 0; v < moves.size(); ++v) positions_[v] += moves[v];
     parallel_for(samples_.size(), kSearchBlock, [&](std::size_t begin, std::size_t end) {
@@ -57,12 +73,18 @@ class DisplacementFit {
       for (std::size_t v = begin; v < end; ++v)
         squared_back_[v] = walk_to_nearest(target_.level, target_.positions, positions_[v], places_[v]);
     });
+  }
+
+  double energy_of(const std::vector<Vec3>& moves, const std::vector<Vec3>& carried) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < squared_.size(); ++i) sum += samples_[i].weight * squared_[i];
     for (double squared : squared_back_) sum += squared;
     for (const auto& [a, b] : finest_.edges)
       sum += options_.stiffness * (moves[a] - start_[a] - moves[b] + start_[b]).squaredNorm();
-    for (std::size_t v = 0; v < moves.size(); ++v) sum += moves[v].dot(hold(v) * moves[v]);
+    for (std::size_t v = 0; v < moves.size(); ++v) {
+      const Vec3 off = moves[v] - carried[v];
+      sum += off.dot(hold(v) * off);
+    }
     return sum;
   }
 
@@ -76,13 +98,17 @@ class DisplacementFit {
         const double length = steps[v].norm();
         moved[v] += (length > reach_[v] ? part * reach_[v] / length : part) * steps[v];
       }
-      const double there = energy_at(moved);
+      std::vector<Vec3> carried = carried_by(moved);
+      follow(moved, carried);
+      find_places(moved);
+      const double there = energy_of(moved, carried);
       if (!(there < energy)) continue;
       energy = there;
       moves_ = std::move(moved);
+      carried_ = std::move(carried);
       return true;
     }
-    energy_at(moves_);
+    find_places(moves_);
     return false;
   }
 
@@ -96,7 +122,7 @@ class DisplacementFit {
     }
     for (std::size_t v = 0; v < moves_.size(); ++v) {
       Eigen::Matrix3d form = hold(v);
-      Vec3 pull = -(form * moves_[v]);
+      Vec3 pull = -(form * (moves_[v] - carried_[v]));
       form.diagonal().array() += options_.damping;
       if (const auto n = target_.direction(places_[v], positions_[v])) {
         form += *n * n->transpose();
@@ -111,6 +137,7 @@ class DisplacementFit {
     return system;
   }
 
+  const std::vector<SubdivisionLevel>& levels_;
   const SubdivisionLevel& finest_;
   const SmoothSurface& surface_;
   const FitTarget& target_;
@@ -118,6 +145,7 @@ class DisplacementFit {
   std::vector<SurfaceSample>& samples_;
   const std::vector<Vec3> start_;
   std::vector<Vec3> moves_;
+  std::vector<Vec3> carried_;  ///< #V, the part of them that the boundary's displacements give
   std::vector<char> free_;
   std::vector<LevelPlace> places_;  ///< of the vertices on the target
   std::vector<Vec3> positions_;
@@ -127,10 +155,10 @@ class DisplacementFit {
 
 }  // namespace
 
-std::vector<Vec3> fit_displacements(const SubdivisionLevel& finest, const SmoothSurface& surface,
+std::vector<Vec3> fit_displacements(const std::vector<SubdivisionLevel>& levels, const SmoothSurface& surface,
                                     const FitTarget& target, const DisplacementFitOptions& options,
                                     std::vector<SurfaceSample>& samples, const std::vector<Vec3>& start) {
-  return DisplacementFit(finest, surface, target, options, samples, start).run();
+  return DisplacementFit(levels, surface, target, options, samples, start).run();
 }
 
 }  // namespace gsp

@@ -17,7 +17,7 @@ struct PiercedDisplacements {
 /// three lengths of the edges around that and where no face beside it turns against the target's; elsewhere the mean of
 /// the vertices around. On boundaries to where the target's boundary crosses the plane of normal and conormal, or else
 /// the part in that plane of the way to the map's point. O(V).
-PiercedDisplacements pierce_target(const SubdivisionLevel& finest, const SmoothSurface& surface,
+PiercedDisplacements pierce_target(const std::vector<SubdivisionLevel>& levels, const SmoothSurface& surface,
                                    const FitTarget& target);
 
 struct DisplacementFitOptions {
@@ -34,7 +34,7 @@ struct DisplacementFitOptions {
 /// energy. Moves along the surface are held back, not forbidden: what is left of them says where one number a vertex is
 /// not enough. `samples` and `start`, #V, are where it begins; samples leave as nearest places. The same bits for any
 /// number of threads. O(V + samples).
-std::vector<Vec3> fit_displacements(const SubdivisionLevel& finest, const SmoothSurface& surface,
+std::vector<Vec3> fit_displacements(const std::vector<SubdivisionLevel>& levels, const SmoothSurface& surface,
                                     const FitTarget& target, const DisplacementFitOptions& options,
                                     std::vector<SurfaceSample>& samples, const std::vector<Vec3>& start);
 

@@ -10,14 +10,19 @@ namespace {
 
 class Piercer {
  public:
-  Piercer(const SubdivisionLevel& finest, const SmoothSurface& surface, const FitTarget& target)
-      : finest_(finest), surface_(surface), target_(target), by_map_(displacements_of(surface, target_points())) {
-    on_surface_.assign(finest.vertex_count, 0);
+  Piercer(const std::vector<SubdivisionLevel>& levels, const SmoothSurface& surface, const FitTarget& target)
+      : levels_(levels),
+        finest_(levels.back()),
+        surface_(surface),
+        target_(target),
+        by_map_(displacements_of(levels, surface, target_points())) {
+    on_surface_.assign(finest_.vertex_count, 0);
   }
 
   PiercedDisplacements run() {
     result_ = by_map_;
-    pierce();
+    pierce_boundary();
+    pierce_inside();
     keep_upright();
     const auto missed = std::count(on_surface_.begin(), on_surface_.end(), 0);
     if (missed > 0) fill();
@@ -31,26 +36,31 @@ class Piercer {
 
   bool on_boundary(int v) const { return !surface_.conormals[v].isZero(0.0); }
 
-  void pierce() {
+  void pierce_boundary() {
+    const BoundaryWalk boundary(target_.level);
+    for (int v = 0; v < finest_.vertex_count; ++v) {
+      if (!on_boundary(v)) continue;
+      on_surface_[v] = 1;
+      // The plane that holds normal and conormal cuts the boundary once near the map's point.
+      const Vec3 tangent = cross(surface_.normals[v], surface_.conormals[v]);
+      if (const auto hit = boundary.to_plane(target_.positions, v, surface_.points[v], tangent)) {
+        result_.along[v] = dot(surface_.normals[v], *hit - surface_.points[v]);
+        result_.across[v] = dot(surface_.conormals[v], *hit - surface_.points[v]);
+      }
+    }
+  }
+
+  void pierce_inside() {
     constexpr double kAperture = 3.0;
     const std::vector<double> spacing = longest_edges(finest_, target_.positions);
-    const BoundaryWalk boundary(target_.level);
     const std::vector<LevelPlace> places = target_.vertex_places(finest_.vertex_count);
+    const std::vector<Vec3> moves = moves_across(levels_, surface_, result_.across);
     for (int v = 0; v < finest_.vertex_count; ++v) {
-      if (on_boundary(v)) {
-        on_surface_[v] = 1;
-        // The plane that holds normal and conormal cuts the boundary once near the map's point.
-        const Vec3 tangent = cross(surface_.normals[v], surface_.conormals[v]);
-        if (const auto hit = boundary.to_plane(target_.positions, v, surface_.points[v], tangent)) {
-          result_.along[v] = dot(surface_.normals[v], *hit - surface_.points[v]);
-          result_.across[v] = dot(surface_.conormals[v], *hit - surface_.points[v]);
-        }
-        continue;
-      }
-      const auto along =
-          walk_to_line(target_.level, target_.positions, places[v].face, surface_.points[v], surface_.normals[v]);
+      if (on_boundary(v)) continue;
+      const Vec3 origin = surface_.points[v] + moves[v];
+      const auto along = walk_to_line(target_.level, target_.positions, places[v].face, origin, surface_.normals[v]);
       if (!along) continue;
-      const Vec3 hit = surface_.points[v] + *along * surface_.normals[v];
+      const Vec3 hit = origin + *along * surface_.normals[v];
       if (!((hit - target_.positions[v]).norm() <= kAperture * spacing[v])) continue;
       result_.along[v] = *along;
       on_surface_[v] = 1;
@@ -63,7 +73,7 @@ class Piercer {
     constexpr double kCosine = 0.1;
     constexpr int kPasses = 3;
     for (int pass = 0; pass < kPasses; ++pass) {
-      const std::vector<Vec3> points = displaced_points(surface_, result_);
+      const std::vector<Vec3> points = displaced_points(levels_, surface_, result_);
       for (const Triangle& t : finest_.faces) {
         const Vec3 here = doubled_area(t, points), there = doubled_area(t, target_.positions);
         if (here.dot(there) > kCosine * here.norm() * there.norm()) continue;
@@ -93,6 +103,7 @@ class Piercer {
     }
   }
 
+  const std::vector<SubdivisionLevel>& levels_;
   const SubdivisionLevel& finest_;
   const SmoothSurface& surface_;
   const FitTarget& target_;
@@ -103,9 +114,9 @@ class Piercer {
 
 }  // namespace
 
-PiercedDisplacements pierce_target(const SubdivisionLevel& finest, const SmoothSurface& surface,
+PiercedDisplacements pierce_target(const std::vector<SubdivisionLevel>& levels, const SmoothSurface& surface,
                                    const FitTarget& target) {
-  return Piercer(finest, surface, target).run();
+  return Piercer(levels, surface, target).run();
 }
 
 }  // namespace gsp

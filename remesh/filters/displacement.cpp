@@ -38,22 +38,38 @@ bool is_control_grid(double grid) {
   return mantissa == std::floor(mantissa) && exponent >= -500 && exponent <= 500;
 }
 
-std::vector<Vec3> displaced_points(const SmoothSurface& surface, const Displacements& displacements) {
+std::vector<Vec3> moves_across(const std::vector<SubdivisionLevel>& levels, const SmoothSurface& surface,
+                               const std::vector<double>& across, AcrossRule rule) {
+  std::vector<Vec3> moves(across.size());
+  for (std::size_t v = 0; v < moves.size(); ++v)
+    for (int k = 0; k < 3; ++k) moves[v][k] = across[v] * surface.conormals[v][k];
+  if (rule == AcrossRule::AtBoundary) return moves;
+  for (std::size_t l = 0; l + 1 < levels.size(); ++l)
+    for (int e = 0; e < levels[l].edge_count(); ++e) {
+      if (levels[l].on_boundary(e)) continue;
+      const auto [a, b] = levels[l].edges[e];
+      for (int k = 0; k < 3; ++k) moves[levels[l].vertex_count + e][k] = 0.5 * (moves[a][k] + moves[b][k]);
+    }
+  return moves;
+}
+
+std::vector<Vec3> displaced_points(const std::vector<SubdivisionLevel>& levels, const SmoothSurface& surface,
+                                   const Displacements& displacements, AcrossRule rule) {
+  const std::vector<Vec3> moves = moves_across(levels, surface, displacements.across, rule);
   std::vector<Vec3> points = surface.points;
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    const double along = displacements.along[v], across = displacements.across[v];
-    for (int k = 0; k < 3; ++k) points[v][k] += along * surface.normals[v][k] + across * surface.conormals[v][k];
-  }
+  for (std::size_t v = 0; v < points.size(); ++v)
+    for (int k = 0; k < 3; ++k) points[v][k] += displacements.along[v] * surface.normals[v][k] + moves[v][k];
   return points;
 }
 
-Displacements displacements_of(const SmoothSurface& surface, const std::vector<Vec3>& positions) {
+Displacements displacements_of(const std::vector<SubdivisionLevel>& levels, const SmoothSurface& surface,
+                               const std::vector<Vec3>& positions) {
   Displacements result;
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    const Vec3 way = positions[v] - surface.points[v];
-    result.along.push_back(dot(surface.normals[v], way));
-    result.across.push_back(dot(surface.conormals[v], way));
-  }
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    result.across.push_back(dot(surface.conormals[v], positions[v] - surface.points[v]));
+  const std::vector<Vec3> moves = moves_across(levels, surface, result.across);
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    result.along.push_back(dot(surface.normals[v], positions[v] - surface.points[v] - moves[v]));
   return result;
 }
 
@@ -65,8 +81,8 @@ DisplacedForm displaced_form(const SemiregularMesh& mesh) {
     throw Error(Cause::Malformed, "a mesh has other vertices than its levels");
   const SmoothSurface surface = smooth_surface(levels, mesh.control->points);
   DisplacedForm form;
-  form.displacements = displacements_of(surface, mesh.positions);
-  const std::vector<Vec3> again = displaced_points(surface, form.displacements);
+  form.displacements = displacements_of(levels, surface, mesh.positions);
+  const std::vector<Vec3> again = displaced_points(levels, surface, form.displacements);
   double extent = 0.0;
   for (std::size_t v = 0; v < again.size(); ++v) {
     form.farthest = std::max(form.farthest, (again[v] - mesh.positions[v]).norm());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "remesh/filters/smooth_surface.h"
@@ -14,11 +15,24 @@ struct Displacements {
   std::vector<double> across;  ///< #V, in the conormal's direction, out of the surface; 0 inside
 };
 
+/// What vertices inside make of the moves across a boundary. Streams before version 10 have the former.
+enum class AcrossRule : std::uint8_t {
+  AtBoundary,  ///< nothing: beyond a boundary that is moved far in, normals lead back to no surface
+  Carried,  ///< level by level a new vertex inside moves by the mean of its edge's ends, the base's inside by nothing
+};
+
+/// #V, how displacements across boundaries move the vertices of the last level. `levels`: from the base on, of
+/// `surface`. By operations that IEEE 754 fixes. O(V).
+std::vector<Vec3> moves_across(const std::vector<SubdivisionLevel>& levels, const SmoothSurface& surface,
+                               const std::vector<double>& across, AcrossRule rule = AcrossRule::Carried);
+
 /// Where displacements put the vertices. By operations that IEEE 754 fixes. O(V).
-std::vector<Vec3> displaced_points(const SmoothSurface& surface, const Displacements& displacements);
+std::vector<Vec3> displaced_points(const std::vector<SubdivisionLevel>& levels, const SmoothSurface& surface,
+                                   const Displacements& displacements, AcrossRule rule = AcrossRule::Carried);
 
 /// The inverse, of positions that may be off the normals, by the parts that lie on them.
-Displacements displacements_of(const SmoothSurface& surface, const std::vector<Vec3>& positions);
+Displacements displacements_of(const std::vector<SubdivisionLevel>& levels, const SmoothSurface& surface,
+                               const std::vector<Vec3>& positions);
 
 /// Those of a displaced mesh, and what they miss.
 struct DisplacedForm {

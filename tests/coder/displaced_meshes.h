@@ -21,7 +21,7 @@ inline SemiregularMesh displaced(const Mesh& base, int level) {
     numbers.along.push_back(0.1 * std::sin(3.0 * p.x() + p.y()));
     numbers.across.push_back(0.05 * std::cos(2.0 * p.x() - p.y()));
   }
-  SemiregularMesh mesh{level, base.vertex_count(), base.faces, displaced_points(surface, numbers)};
+  SemiregularMesh mesh{level, base.vertex_count(), base.faces, displaced_points(levels, surface, numbers)};
   mesh.control = ControlMesh{control, grid};
   return mesh;
 }

@@ -24,6 +24,27 @@ TEST_CASE("conormals of a flat grid point out of its sides, and inside there are
   }
 }
 
+TEST_CASE(
+    "moves across a boundary go on inside, half as far at each vertex between one that moves and one that does not") {
+  const Mesh grid = shapes::grid(4, 4);
+  const auto levels = subdivision_levels(grid.vertex_count(), grid.faces, 2);
+  const SmoothSurface surface = smooth_surface(levels, grid.positions);
+  const std::vector<double> across(surface.points.size(), 0.25);
+  const std::vector<Vec3> moves = moves_across(levels, surface, across);
+  const std::vector<Vec3> still = moves_across(levels, surface, across, AcrossRule::AtBoundary);
+  int checked = 0;
+  for (std::size_t v = 0; v < moves.size(); ++v) {
+    // The spline's side is at x = 0, the base's vertices inside at x = 1 and on; corners are far from y = 2.
+    const Vec3& p = surface.points[v];
+    if (std::abs(p.y() - 2.0) > 0.6) continue;
+    const double toward_left = std::max(1.0 - p.x(), 0.0), toward_right = std::max(p.x() - 3.0, 0.0);
+    CHECK((moves[v] - Vec3(0.25 * (toward_right - toward_left), 0.0, 0.0)).norm() < 0.02);
+    CHECK((still[v].isZero(0.0) || p.x() < 0.1 || p.x() > 3.9));
+    ++checked;
+  }
+  CHECK(checked > 40);
+}
+
 TEST_CASE("numbers read off a displaced mesh are those that it was made of") {
   for (const Mesh& base : {shapes::icosahedron(), shapes::grid(3, 4), shapes::torus(6, 4)}) {
     const SemiregularMesh mesh = samples::displaced(base, 2);

@@ -17,7 +17,7 @@ namespace {
 
 const std::string kFolder = "tests/coder/golden/";
 
-/// Streams of versions 6 to 8, as gsp wrote them then, with the hashes of that time: they decode to the same bits for
+/// Streams of versions 6 to 9, as gsp wrote them then, with the hashes of that time: they decode to the same bits for
 /// good.
 const std::vector<std::string> kOlder = {
     "version-6/sphere-loop.pgc e3b41426e84996bd abe35b8c765a575b",
@@ -30,6 +30,7 @@ const std::vector<std::string> kOlder = {
     "version-8/creases-lens.pgc 2f40b4cb4f5a80d2 ea2f299d8fc8ea7e",
     "version-8/noise-loop.pgc a1bf0bbdb2a77446 dfe2f5eecd5843d4",
     "version-8/scalar-butterfly.pgc 71094375753149f2 b175eaa3b8303956",
+    "version-9/displaced-sheet.pgc 3a77934e25d8b37d d185ae7cb51613b0",
 };
 
 struct Golden {
