@@ -126,7 +126,7 @@ double area_of(MeshFormat format, const std::string& bytes) { return surface_are
 
 }  // namespace
 
-TEST_CASE("random simple polygons are tiled, with many corners on a line") {
+TEST_CASE("random simple polygons are tiled, with many corners on a line", "[slow]") {
   Random random(14);
   int made = 0, concave = 0;
   for (int trial = 0; trial < 4000; ++trial) {

@@ -81,7 +81,7 @@ void check_same_costs(const std::vector<OmegaRecord>& a, const std::vector<Omega
 
 }  // namespace
 
-TEST_CASE("a surface that is moved, turned or scaled gets the same map") {
+TEST_CASE("a surface that is moved, turned or scaled gets the same map", "[slow]") {
   const Mesh mesh = uneven();
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   const Mesh moved = changed(mesh, [&](const Vec3& p) -> Vec3 { return 300.0 * (turn * p) + Vec3(10, -20, 5); });

@@ -291,7 +291,8 @@ TEST_CASE("the baselines stand on the same base and keep its area") {
   for (const ParameterizeResult& r : results) CHECK(check_map(r.map).area_error < 1e-9);
 }
 
-TEST_CASE("a replicate is another base by chance alone, recorded, and the same bits whenever it is made again") {
+TEST_CASE("a replicate is another base by chance alone, recorded, and the same bits whenever it is made again",
+          "[slow]") {
   const Mesh mesh = shapes::bumpy_sphere(4);
   const auto made = [&](int replicate, int threads) {
     set_thread_count(threads);
