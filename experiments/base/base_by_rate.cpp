@@ -24,6 +24,7 @@ constexpr double kFewestFaces = 32768;  // of remeshes of the surface itself
 constexpr double kSmallest = 15.0, kLargest = 1600.0;  // vertices, of the ladder
 constexpr int kFewestPerBase = 8;                      // vertices of the surface for each of the base
 constexpr double kFewestPerCreased = 4.0;              // the same where feature curves need room
+constexpr int kMostJudged = 100000;                    // faces of a surface of which several maps are made for that
 constexpr double kHopeless = 2.0;                      // dB behind a base without features, where none has enough room
 constexpr double kLarger = 1.2;                        // than asked for is another size
 constexpr int kFirst[] = {2, 4, 6};                    // steps of the ladder: 30, 60, 120
@@ -142,6 +143,11 @@ int with_room_for_features(const Mesh& mesh, ParameterizeOptions options) {
 
 ParameterizeOptions with_features_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress) {
   if (choose_features(mesh, options).given_way == 0) return options;
+  if (mesh.face_count() > kMostJudged) {
+    ParameterizeOptions roomier = options;
+    roomier.base_vertices = with_room_for_features(mesh, options);
+    return choose_features(mesh, roomier).given_way == 0 ? roomier : options;
+  }
   const auto step = progress.step("choose features by rate");
   // The stand-in may have lost curves, so the surface itself is judged.
   const MapWorth worth(mesh, kRatedBytes, kFewestFaces);

@@ -33,9 +33,10 @@ BaseByRate base_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Pr
 /// Where feature curves give way in a base of the size asked for, the size and the features that are worth the most:
 /// with `kAutoFeatures` that size without features; that size with them; and unless it is 2 dB behind, twice as many
 /// vertices and so on as long as that is better, and one with room for all curves, but at most a quarter of the
-/// surface's vertices and 1,600. Judged at 1 to 16 KB on the surface itself (map_worth.h), a map each. The options as
-/// they are where none gives way. `progress` notes where features are given up. Throws what `choose_features` throws,
-/// Error(Cancelled).
+/// surface's vertices and 1,600. Judged at 1 to 16 KB on the surface itself (map_worth.h), a map each. Of more than
+/// 100,000 faces, whose maps take too long for that, the next size with room for all curves, if there is one. The
+/// options as they are where none gives way. `progress` notes where features are given up. Throws what
+/// `choose_features` throws, Error(Cancelled).
 ParameterizeOptions with_features_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress);
 
 /// The options as they are, but with the size chosen, and with it the features by `with_features_by_rate`, where
