@@ -82,7 +82,7 @@ TEST_CASE("a base without room for all features grows where that is worth it", "
   CHECK(with_features_by_rate(box, options, progress).base_vertices == 24);
 }
 
-TEST_CASE("a large surface gets the next base with room for all features, and no map is made to choose it") {
+TEST_CASE("a large surface gets the next base with room for all features, and no map is made to choose it", "[slow]") {
   const Mesh box = shapes::box(7);  // 196,608 faces
   Progress progress([](const std::string& stage, double) { return stage.find("base by rate") == std::string::npos; });
   ParameterizeOptions options;
@@ -90,7 +90,7 @@ TEST_CASE("a large surface gets the next base with room for all features, and no
   CHECK(with_features_by_rate(box, options, progress).base_vertices == 24);
 }
 
-TEST_CASE("features that have no room are given up where a base without them is worth more") {
+TEST_CASE("features that have no room are given up where a base without them is worth more", "[slow]") {
   const Mesh box = shapes::box(1);  // 26 vertices, so that no larger base is tried
   Progress progress;
   ParameterizeOptions options;

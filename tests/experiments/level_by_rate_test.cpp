@@ -84,7 +84,7 @@ TEST_CASE("the level by rate is the automatic one where 16 KB are far from the r
   if (rates(map, first).room_db > 4.2) CHECK(one.level == first);
 }
 
-TEST_CASE("levels that are given, and those of other kinds, are not chosen by rate") {
+TEST_CASE("levels that are given, and those of other kinds, are not chosen by rate", "[slow]") {
   const Parameterization map = map_of(shapes::box(2), 8, kNoFeatures);
   RemeshOptions options;
   options.level = 3;
