@@ -3,7 +3,6 @@
 #include <string>
 #include <utility>
 
-#include "coder/codec.h"
 #include "experiments/base/map_worth.h"
 #include "metrics/psnr.h"
 #include "metrics/surface_distance.h"
@@ -24,22 +23,19 @@ struct Judged {
 };
 
 Judged judged(SemiregularMesh mesh, const Mesh& surface, const SurfaceTree& tree, Progress& progress) {
-  EncodeOptions coding;
-  coding.wavelet = Wavelet::ButterflyLifted;
-  const Bytes stream = encode(mesh, coding, progress);
+  const Bytes stream = rated_stream(mesh, progress);
   Progress silent;
-  const auto psnr = [&](const Mesh& other) {
-    return diagonal_psnr(surface_distance(surface, tree, other, kLevelRuler, silent)).db;
-  };
   Judged result{std::move(mesh)};
   double last = 0.0;
   for (std::size_t budget : kRatedBytes) {
     if (budget <= header_bytes(stream)) continue;  // the same ones at any level
-    const Mesh decoded = decode(stream, budget).mesh();
-    last = surface_area(decoded) > 0.0 ? psnr(decoded) : 0.0;
+    last = prefix_psnr(surface, tree, stream, budget, kLevelRuler, silent).value_or(0.0);
     result.psnr_db += last / static_cast<double>(kRatedBytes.size());
   }
-  result.binds = last > 0.0 && psnr(result.mesh.mesh()) - last < kBinding;
+  if (last > 0.0) {
+    const SurfaceDistance distance = surface_distance(surface, tree, result.mesh.mesh(), kLevelRuler, silent);
+    result.binds = diagonal_psnr(distance).db - last < kBinding;
+  }
   return result;
 }
 

@@ -4,11 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "coder/codec.h"
 #include "metrics/psnr.h"
 #include "param/parameterize.h"
 #include "remesh/remesh.h"
-#include "remesh/semiregular.h"
 
 namespace gsp {
 
@@ -28,6 +26,19 @@ Progress quiet(Progress& progress, const char* stage) {
 
 }  // namespace
 
+Bytes rated_stream(const SemiregularMesh& mesh, Progress& progress) {
+  EncodeOptions coding;
+  coding.wavelet = Wavelet::ButterflyLifted;
+  return encode(mesh, coding, progress);
+}
+
+std::optional<double> prefix_psnr(const Mesh& surface, const SurfaceTree& tree, const Bytes& stream, std::size_t bytes,
+                                  const DistanceOptions& sampling, Progress& progress) {
+  const Mesh decoded = decode(stream, bytes).mesh();
+  if (!(surface_area(decoded) > 0.0)) return std::nullopt;
+  return diagonal_psnr(surface_distance(surface, tree, decoded, sampling, progress)).db;
+}
+
 MapWorth::MapWorth(Mesh mesh, std::vector<std::size_t> budgets, double fewest_faces)
     : mesh_(std::move(mesh)), tree_(mesh_), budgets_(std::move(budgets)), fewest_faces_(fewest_faces) {}
 
@@ -42,26 +53,21 @@ std::optional<MapWorth::Value> MapWorth::of(ParameterizeOptions options, Progres
   const Parameterization map = parameterize(mesh_, options, inner).map;
   RemeshOptions remeshing;
   remeshing.level = first_level_with(map.base.face_count(), fewest_faces_);
-  EncodeOptions coding;
-  coding.wavelet = Wavelet::ButterflyLifted;
-  const Bytes stream = encode(remesh(map, remeshing, inner), coding, inner);
+  const Bytes stream = rated_stream(remesh(map, remeshing, inner), inner);
   return Value{map.base.vertex_count(), mean_psnr(stream, inner)};
 } catch (const Error& error) {
   if (error.cause() == Cause::Cancelled) throw;
   return std::nullopt;
 }
 
-double MapWorth::mean_psnr(const std::vector<std::uint8_t>& stream, Progress& progress) const {
+double MapWorth::mean_psnr(const Bytes& stream, Progress& progress) const {
   DistanceOptions sampling;
   sampling.samples = kSamples;
   const std::size_t header = header_bytes(stream);
   double sum = 0.0;
   for (std::size_t budget : budgets_) {
     const std::size_t bytes = std::max(budget, header);
-    const Mesh decoded = decode(stream, bytes).mesh();
-    // Distances to thousands of faces at one point take minutes.
-    sum += surface_area(decoded) > 0.0 ? diagonal_psnr(surface_distance(mesh_, tree_, decoded, sampling, progress)).db
-                                       : kOnePoint;
+    sum += prefix_psnr(mesh_, tree_, stream, bytes, sampling, progress).value_or(kOnePoint);
     sum -= kOctave * std::log2(static_cast<double>(bytes) / static_cast<double>(budget));
   }
   return sum / static_cast<double>(budgets_.size());

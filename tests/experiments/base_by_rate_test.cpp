@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "experiments/base/map_worth.h"
-#include "mesh/parallel.h"
 #include "mesh/shapes.h"
 #include "param/creases/feature_budget.h"
+#include "tests/by_threads.h"
 
 using namespace gsp;
 
@@ -22,12 +22,7 @@ BaseByRate choice(const Mesh& mesh) {
 
 TEST_CASE("the base by rate is the best of those that were tried, the same for one and two threads", "[slow]") {
   const Mesh mesh = shapes::bumpy_sphere(3);
-  const int before = thread_count();
-  set_thread_count(1);
-  const BaseByRate one = choice(mesh);
-  set_thread_count(2);
-  const BaseByRate two = choice(mesh);
-  set_thread_count(before);
+  const auto [one, two] = by_one_and_two_threads([&] { return choice(mesh); });
   REQUIRE(!one.tried.empty());
   const auto best = std::max_element(one.tried.begin(), one.tried.end(),
                                      [](const BaseTried& a, const BaseTried& b) { return a.psnr_db < b.psnr_db; });

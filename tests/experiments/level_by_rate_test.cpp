@@ -4,11 +4,11 @@
 
 #include "coder/codec.h"
 #include "experiments/base/map_worth.h"
-#include "mesh/parallel.h"
 #include "mesh/shapes.h"
 #include "metrics/surface_distance.h"
 #include "param/parameterize.h"
 #include "remesh/remesh.h"
+#include "tests/by_threads.h"
 
 using namespace gsp;
 
@@ -72,16 +72,12 @@ TEST_CASE("the level by rate is the finer one where the automatic one cuts off 1
 
 TEST_CASE("the level by rate is the automatic one where 16 KB are far from the remesh, the same for any threads",
           "[slow]") {
-  const Parameterization map = map_of(shapes::bumpy_sphere(4), 12, kAutoFeatures);
-  const int before = thread_count();
-  set_thread_count(1);
-  const SemiregularMesh one = by_rate(map);
-  set_thread_count(2);
-  const SemiregularMesh two = by_rate(map);
-  set_thread_count(before);
+  const Parameterization map = map_of(shapes::bumpy_sphere(4), 250, kAutoFeatures);
+  const auto [one, two] = by_one_and_two_threads([&] { return by_rate(map); });
   CHECK(one.positions == two.positions);
   const int first = first_level_with(map.base.face_count(), 32768);
-  if (rates(map, first).room_db > 4.2) CHECK(one.level == first);
+  REQUIRE(rates(map, first).room_db > 4.2);
+  CHECK(one.level == first);
 }
 
 TEST_CASE("levels that are given, and those of other kinds, are not chosen by rate", "[slow]") {

@@ -10,12 +10,12 @@
 #include "experiments/figures/remesh_map.h"
 #include "mesh/edge.h"
 #include "mesh/io.h"
-#include "mesh/parallel.h"
 #include "mesh/shapes.h"
 #include "metrics/distortion.h"
 #include "param/map/param_file.h"
 #include "remesh/semiregular_file.h"
 #include "temporary_folder.h"
+#include "tests/by_threads.h"
 #include "tests/support/exact_maps.h"
 
 using namespace gsp;
@@ -99,11 +99,7 @@ TEST_CASE("an inside-out surface looks like the same one turned out") {
 
 TEST_CASE("a picture has the same bytes for any number of threads") {
   const Mesh mesh = shapes::torus(40, 20);
-  set_thread_count(1);
-  const Image one = draw(mesh, with_wireframe(plain_paint()), 150);
-  set_thread_count(2);
-  const Image two = draw(mesh, with_wireframe(plain_paint()), 150);
-  set_thread_count(0);
+  const auto [one, two] = by_one_and_two_threads([&] { return draw(mesh, with_wireframe(plain_paint()), 150); });
   CHECK(one.rgb == two.rgb);
 }
 

@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 
 #include "mesh/error.h"
-#include "mesh/parallel.h"
 #include "mesh/shapes.h"
+#include "tests/by_threads.h"
 #include "tests/metrics/brute_force.h"
 
 using namespace gsp;
@@ -124,11 +124,7 @@ TEST_CASE("equal surfaces are enclosed by zero and rounding; isolated vertices a
 
 TEST_CASE("bounds are the same for one and two threads, and stay true where pieces run out") {
   const Mesh a = shapes::torus(40, 20), b = shapes::torus(31, 17);
-  set_thread_count(1);
-  const HausdorffBounds one = bounds(a, b);
-  set_thread_count(2);
-  const HausdorffBounds two = bounds(a, b);
-  set_thread_count(0);
+  const auto [one, two] = by_one_and_two_threads([&] { return bounds(a, b); });
   CHECK(one.forward.lower == two.forward.lower);
   CHECK(one.forward.upper == two.forward.upper);
   HausdorffOptions few;

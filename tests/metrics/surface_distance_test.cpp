@@ -6,8 +6,8 @@
 
 #include <Eigen/Geometry>
 
-#include "mesh/parallel.h"
 #include "mesh/shapes.h"
+#include "tests/by_threads.h"
 #include "tests/metrics/brute_force.h"
 
 using namespace gsp;
@@ -152,11 +152,7 @@ TEST_CASE("isolated vertices and degenerate faces change nothing") {
 
 TEST_CASE("one and two threads give the same bits") {
   const Mesh a = shapes::torus(80, 40), b = shapes::torus(60, 30);
-  set_thread_count(1);
-  const SurfaceDistance one = measure(a, b, 50001);
-  set_thread_count(2);
-  const SurfaceDistance two = measure(a, b, 50001);
-  set_thread_count(0);
+  const auto [one, two] = by_one_and_two_threads([&] { return measure(a, b, 50001); });
   CHECK(same_bits(one.forward, two.forward));
   CHECK(same_bits(one.backward, two.backward));
 }

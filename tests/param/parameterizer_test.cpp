@@ -16,6 +16,7 @@
 #include "param/parameterize.h"
 #include "param/simplify/simplify.h"
 #include "param/stages/fold_free_solution.h"
+#include "tests/by_threads.h"
 
 using namespace gsp;
 
@@ -258,11 +259,7 @@ void check_valid_and_deterministic(const std::vector<Case>& cases) {
     ParameterizeOptions options;
     options.base_vertices = c.base_vertices;
     Progress progress;
-    set_thread_count(1);
-    const ParameterizeResult one = parameterize(c.mesh, options, progress);
-    set_thread_count(2);
-    const ParameterizeResult two = parameterize(c.mesh, options, progress);
-    set_thread_count(0);
+    const auto [one, two] = by_one_and_two_threads([&] { return parameterize(c.mesh, options, progress); });
     CHECK(check_map(one.map).valid());
     CHECK(one.map.position == two.map.position);
     CHECK(one.map.patch == two.map.patch);

@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 
-#include "mesh/parallel.h"
 #include "mesh/random.h"
 #include "mesh/shapes.h"
 #include "remesh/chart_samples.h"
 #include "remesh/remesh.h"
+#include "tests/by_threads.h"
 #include "tests/remesh/bumpy.h"
 #include "tests/remesh/worst.h"
 #include "tests/support/exact_maps.h"
@@ -272,10 +272,6 @@ TEST_CASE("folds, and coordinates of any size that is taken, leave the fit finit
 TEST_CASE("one and two threads fit the same bits", "[slow]") {
   const Positions positions = GENERATE(Positions::Fitted, Positions::Closest);
   const Parameterization map = bumpy(shapes::grid(2, 3), 4);
-  set_thread_count(1);
-  const SemiregularMesh one = remeshed(map, 5, positions);
-  set_thread_count(2);
-  const SemiregularMesh two = remeshed(map, 5, positions);
-  set_thread_count(0);
+  const auto [one, two] = by_one_and_two_threads([&] { return remeshed(map, 5, positions); });
   CHECK(one.positions == two.positions);
 }

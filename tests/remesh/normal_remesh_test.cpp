@@ -5,13 +5,13 @@
 #include <Eigen/Geometry>
 #include <limits>
 
-#include "mesh/parallel.h"
 #include "mesh/random.h"
 #include "mesh/shapes.h"
 #include "remesh/filters/butterfly_low_pass.h"
 #include "remesh/filters/local_frames.h"
 #include "remesh/filters/normal_share.h"
 #include "remesh/normal/piercing.h"
+#include "tests/by_threads.h"
 #include "tests/support/exact_maps.h"
 
 using namespace gsp;
@@ -227,12 +227,7 @@ TEST_CASE("a file's normal share is what the remesher took") {
 
 TEST_CASE("a normal remesh is the same bits on one thread and on two") {
   const Parameterization map = mapped(shapes::icosahedron(), 3, on_sphere);
-  const int threads = thread_count();
-  set_thread_count(1);
-  const Normal one(map, 4);
-  set_thread_count(2);
-  const Normal two(map, 4);
-  set_thread_count(threads);
+  const auto [one, two] = by_one_and_two_threads([&] { return Normal(map, 4); });
   CHECK(one.mesh.positions == two.mesh.positions);
   CHECK(one.mesh.forms == two.mesh.forms);
 }

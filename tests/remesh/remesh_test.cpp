@@ -5,10 +5,10 @@
 #include <Eigen/Geometry>
 
 #include "mesh/error.h"
-#include "mesh/parallel.h"
 #include "mesh/random.h"
 #include "mesh/shapes.h"
 #include "param/map/development.h"
+#include "tests/by_threads.h"
 #include "tests/remesh/worst.h"
 #include "tests/support/exact_maps.h"
 
@@ -317,10 +317,6 @@ TEST_CASE("one and two threads give the same bits", "[slow]") {
   Parameterization map = exact_maps::quadrisected(shapes::icosahedron(), 4);
   exact_maps::jitter(map, 0.5, 4, 6);
   Progress silent;
-  set_thread_count(1);
-  const SemiregularMesh one = remesh(map, {5}, silent);
-  set_thread_count(2);
-  const SemiregularMesh two = remesh(map, {5}, silent);
-  set_thread_count(0);
+  const auto [one, two] = by_one_and_two_threads([&] { return remesh(map, {5}, silent); });
   CHECK(one.positions == two.positions);
 }

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "mesh/parallel.h"
 #include "mesh/random.h"
 #include "mesh/shapes.h"
 #include "remesh/scalar/scalar_synthesis.h"
+#include "tests/by_threads.h"
 
 using namespace gsp;
 
@@ -128,12 +128,8 @@ TEST_CASE("a scalar fit holds boundaries and is the same bits on one thread and 
   const std::vector<Vec3> start = synthesis.positions(scalars.form);
   std::vector<SurfaceSample> samples = samples_of(scalars.levels.back(), start);
   for (SurfaceSample& sample : samples) sample.point.z() += 0.02 * std::cos(sample.point.x());
-  const int threads = thread_count();
-  set_thread_count(1);
-  const ScalarFit one = fit_scalars(scalars.levels, scalars.exceptional, true, samples, {5e-3}, start);
-  set_thread_count(2);
-  const ScalarFit two = fit_scalars(scalars.levels, scalars.exceptional, true, samples, {5e-3}, start);
-  set_thread_count(threads);
+  const auto [one, two] = by_one_and_two_threads(
+      [&] { return fit_scalars(scalars.levels, scalars.exceptional, true, samples, {5e-3}, start); });
   CHECK(one.positions == two.positions);
   CHECK(one.rms < 0.01);
 }
