@@ -54,14 +54,17 @@ int fit_steps(const Parameterization& map, int level) {
   return steps;
 }
 
-FitEffort effort_of(Positions positions) {
+FitEffort effort_of(const RemeshOptions& options) {
   // A third of the stiffness costs up to 0.5 dB at 8 and 16 KB on Venus and the bunny, twice as much gives the same
   // curves with ceilings 0.5 dB lower.
   constexpr FitEffort kFitted{5e-3};
   // With three times as much the remeshing error of Venus and the bunny is 4% larger. The error is what counts here, so
   // the rounds go on for less.
   constexpr FitEffort kClosest{5e-5, 0.01, 20};
-  return positions == Positions::Closest ? kClosest : kFitted;
+  FitEffort effort = options.positions == Positions::Closest ? kClosest : kFitted;
+  effort.most_rounds =
+      options.positions == Positions::Sampled ? 0 : std::min(effort.most_rounds, options.most_fit_rounds);
+  return effort;
 }
 
 void require_built(const RemeshOptions& options) {
@@ -261,8 +264,7 @@ std::vector<Vec3> fitted(const Parameterization& map, const std::vector<Subdivis
   const int level = static_cast<int>(levels.size()) - 1;
   const SemiregularMesh surface = fit_target(map, level, progress);
   const SubdivisionLevel finest = surface.levels().back();
-  FitEffort effort = effort_of(options.positions);
-  if (options.positions == Positions::Sampled) effort.most_rounds = 0;
+  const FitEffort effort = effort_of(options);
   std::vector<char> exceptional;
   for (VertexForm form : normal.forms) exceptional.push_back(form != VertexForm::Normal);
   progress.report("scalar fit", 0.5);
@@ -305,7 +307,7 @@ SemiregularMesh remesh(const Parameterization& map, const RemeshOptions& options
   if (remesher.gaps() > 0)
     progress.note(std::to_string(remesher.gaps()) +
                   " points of the remesh lie in no face of the map, which has folds; the nearest place was taken");
-  if (options.positions != Positions::Sampled) remesher.fit(effort_of(options.positions));
+  if (options.positions != Positions::Sampled) remesher.fit(effort_of(options));
   progress.report("remesh", 1.0);
   return remesher.take();
 }

@@ -57,6 +57,9 @@ struct RemeshOptions {
   int level = kAutoLevel;
   static constexpr int kAutoLevel = 99;
   Positions positions = Positions::Fitted;
+  /// Rounds in which fitted positions move towards the closest points, at most. 1 for a quick look: the remesh is then
+  /// some tenths of a dB farther from the surface.
+  int most_fit_rounds = 100;
   RemeshKind kind = RemeshKind::Parametric;
   /// Of normal kinds; others do without. A code keeps its details normal with the wavelet of the same name.
   Prediction predict = Prediction::Butterfly;

@@ -16,10 +16,9 @@ namespace gsp {
 
 namespace {
 
-constexpr int kFaces = 5000;            // of the stand-in
-constexpr double kRefinement = 16.0;    // faces of a remesh for each of the stand-in, within a factor of two
+constexpr int kFaces = 10000;           // of the stand-in
 constexpr int kMostAroundVertex = 256;  // faces; the time of a decimation grows with the cube of that
-constexpr double kFewestFaces = 32768;  // of remeshes of the surface itself
+constexpr double kFewestFaces = 40000;  // of remeshes
 
 constexpr double kSmallest = 15.0, kLargest = 1600.0;  // vertices, of the ladder
 constexpr int kFewestPerBase = 8;                      // vertices of the surface for each of the base
@@ -28,6 +27,7 @@ constexpr int kMostJudged = 100000;                    // faces of a surface of 
 constexpr double kHopeless = 2.0;                      // dB behind a base without features, where none has enough room
 constexpr double kLarger = 1.2;                        // than asked for is another size
 constexpr int kFirst[] = {2, 4, 6};                    // steps of the ladder: 30, 60, 120
+constexpr int kStride = 2;                             // between them
 
 int size_at(int step) { return static_cast<int>(std::lround(kSmallest * std::pow(2.0, 0.5 * step))); }
 
@@ -53,7 +53,7 @@ Mesh stand_in(const Mesh& mesh, Progress& progress) {
 class Judge {
  public:
   Judge(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress)
-      : worth_(of_stand_in(stand_in(mesh, progress))), options_(options), progress_(progress) {
+      : worth_(stand_in(mesh, progress), kRatedBytes, kFewestFaces), options_(options), progress_(progress) {
     options_.features.reset();  // edges of the surface, which the stand-in does not have
     const double most = std::min(kLargest, mesh.vertex_count() / static_cast<double>(kFewestPerBase));
     while (size_at(last_ + 1) <= most) ++last_;
@@ -69,14 +69,19 @@ class Judge {
     return known_[step] = worth(size_at(step));
   }
 
+  /// The step nearest to the peak of the parabola through a step, which is the best, and those `kStride` to either
+  /// side. A single size is better or worse by chance, by some tenths of a dB. Nothing where one of them has no value.
+  std::optional<int> peak_about(int step) {
+    const std::optional<double> below = at(step - kStride), here = at(step), above = at(step + kStride);
+    if (!below || !here || !above) return std::nullopt;
+    const double bend = 2.0 * *here - *below - *above;
+    if (!(bend > 0.0)) return step;
+    return step + static_cast<int>(std::lround(kStride * (*above - *below) / (2.0 * bend)));
+  }
+
   std::vector<BaseTried> tried;
 
  private:
-  static MapWorth of_stand_in(Mesh mesh) {
-    const double faces = kRefinement * mesh.face_count() / 2.0;
-    return MapWorth(std::move(mesh), kRatedBytes, faces);
-  }
-
   std::optional<double> worth(int size) {
     options_.base_vertices = size;
     const std::optional<MapWorth::Value> value = worth_.of(options_, progress_);
@@ -117,13 +122,19 @@ BaseByRate base_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Pr
   };
   for (int step : kFirst) look_at(std::min(step, judge.last()));
   for (int step = 1 + kFirst[2]; best < 0 && step <= judge.last(); ++step) look_at(step);
-  for (int stride : {2, 1})
+  const auto climb = [&](int stride) {
     while (best >= 0) {
       const int from = best;
       look_at(from - stride);
       look_at(from + stride);
       if (best == from) break;
     }
+  };
+  climb(kStride);
+  if (const std::optional<int> peak = best < 0 ? std::nullopt : judge.peak_about(best))
+    best = *peak;
+  else
+    climb(1);
   if (best >= 0) result.base_vertices = size_at(best);
   result.tried = std::move(judge.tried);
   return result;
@@ -131,22 +142,30 @@ BaseByRate base_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Pr
 
 namespace {
 
-/// The next size of the ladder with room for all features, or the largest that there may be.
-int with_room_for_features(const Mesh& mesh, ParameterizeOptions options) {
-  const int most = static_cast<int>(std::min<double>(kLargest, mesh.vertex_count() / kFewestPerCreased));
-  while (options.base_vertices < most && choose_features(mesh, options).given_way > 0)
-    options.base_vertices = std::min(most, static_cast<int>(std::lround(std::numbers::sqrt2 * options.base_vertices)));
-  return options.base_vertices;
+/// The largest base of a creased surface.
+int most_creased(const Mesh& mesh) {
+  return static_cast<int>(std::min<double>(kLargest, mesh.vertex_count() / kFewestPerCreased));
+}
+
+/// The next size of the ladder that is `needed` or more, but at most `most`.
+int with_room(int base_vertices, int needed, int most) {
+  while (base_vertices < std::min(needed, most))
+    base_vertices = std::min(most, static_cast<int>(std::lround(std::numbers::sqrt2 * base_vertices)));
+  return base_vertices;
 }
 
 }  // namespace
 
 ParameterizeOptions with_features_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress) {
-  if (choose_features(mesh, options).given_way == 0) return options;
+  const FeatureEdges features = wanted_features(mesh, options);
+  if (features.empty()) return options;
+  const int needed = base_for_all(feature_curves(mesh, features));
+  if (options.base_vertices >= needed) return options;
+  const int most = with_room(options.base_vertices, needed, most_creased(mesh));
+  ParameterizeOptions chosen = options;
   if (mesh.face_count() > kMostJudged) {
-    ParameterizeOptions roomier = options;
-    roomier.base_vertices = with_room_for_features(mesh, options);
-    return choose_features(mesh, roomier).given_way == 0 ? roomier : options;
+    if (most >= needed) chosen.base_vertices = most;
+    return chosen;
   }
   const auto step = progress.step("choose features by rate");
   // The stand-in may have lost curves, so the surface itself is judged.
@@ -161,18 +180,18 @@ ParameterizeOptions with_features_by_rate(const Mesh& mesh, const ParameterizeOp
   const bool automatic = !options.features && options.feature_degrees == kAutoFeatures;
   const double without = automatic ? psnr(none) : kNoMap;
 
-  ParameterizeOptions chosen = options, next = options;
-  double best = psnr(options);
+  ParameterizeOptions next = options;
+  next.features = features;  // found once
+  double best = psnr(next);
   const auto is_better = [&](int size) {
     next.base_vertices = size;
     const double db = psnr(next);
     if (db <= best) return false;
     best = db;
-    chosen = next;
+    chosen.base_vertices = size;
     return true;
   };
   if (best > without - kHopeless) {
-    const int most = with_room_for_features(mesh, options);
     while (next.base_vertices < most && is_better(std::min(most, 2 * next.base_vertices))) continue;
     if (next.base_vertices < most) is_better(most);  // between some curves and all there may be a dip
   }

@@ -22,12 +22,14 @@ struct BaseByRate {
 };
 
 /// The size of base whose streams are best at equal bytes. Sizes 15, 21, 30, ... (steps of √2) are judged on a stand-in
-/// of about 5,000 faces, the surface after decimation: parameterized without corner relaxation and flips of base edges,
-/// remeshed, encoded with lifted Butterfly, decoded at 1, 2, 4, 8 and 16 KB and measured (map_worth.h). From 30, 60 and
-/// 120 the search climbs to the best of the ladder; sizes at which the simplification cannot arrive are passed over.
-/// How far the choice is behind the best size of whole curves: bench/README.md, "The base by rate". Of `options` gamma,
-/// mu, weights and feature_degrees count. The same result for any number of threads. About 1 CPU s a size below 200,
-/// five to seven sizes, and the decimation. Throws Error: Cancelled, what `require_parameterizable` throws.
+/// of about 10,000 faces, the surface after decimation: parameterized without flips of base edges, remeshed, encoded
+/// with lifted Butterfly, decoded at 1, 2, 4, 8 and 16 KB and measured (map_worth.h). From 30, 60 and 120 the search
+/// climbs in octaves and takes the step nearest to the peak of the parabola through the best and its neighbours, for a
+/// single size is better or worse by chance; at the ladder's ends it climbs in steps. Sizes at which the simplification
+/// cannot arrive are passed over. How far the choice is behind the best size of whole curves: bench/README.md, "The
+/// base by rate". Of `options` gamma, mu, weights and feature_degrees count. The same result for any number of threads.
+/// About 1 CPU s a size below 200, three to five sizes, and the decimation. Throws Error: Cancelled, what
+/// `require_parameterizable` throws.
 BaseByRate base_by_rate(const Mesh& mesh, const ParameterizeOptions& options, Progress& progress);
 
 /// Where feature curves give way in a base of the size asked for, the size and the features that are worth the most:

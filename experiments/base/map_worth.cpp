@@ -47,11 +47,12 @@ std::optional<MapWorth::Value> MapWorth::of(ParameterizeOptions options, Progres
   options.replicate = 0;
   options.tries = 1;
   options.objective = Objective::Distortion;
-  options.relaxations = 0;
+  options.relaxations = ParameterizeOptions{}.relaxations;
   options.base_edges = BaseEdges::Keep;
   Progress inner = quiet(progress, "choose the base by rate");
   const Parameterization map = parameterize(mesh_, options, inner).map;
   RemeshOptions remeshing;
+  remeshing.most_fit_rounds = 1;
   remeshing.level = first_level_with(map.base.face_count(), fewest_faces_);
   const Bytes stream = rated_stream(remesh(map, remeshing, inner), inner);
   return Value{map.base.vertex_count(), mean_psnr(stream, inner)};

@@ -24,9 +24,9 @@ Bytes rated_stream(const SemiregularMesh& mesh, Progress& progress);
 std::optional<double> prefix_psnr(const Mesh& surface, const SurfaceTree& tree, const Bytes& stream, std::size_t bytes,
                                   const DistanceOptions& sampling, Progress& progress);
 
-/// What maps of one surface are worth to the coder: made quickly, without corner relaxation and flips of base edges,
-/// remeshed, encoded with lifted Butterfly, decoded at some sizes and measured. A single number of the same stream in
-/// full differs by some tenths of a dB; its rank among others is what counts.
+/// What maps of one surface are worth to the coder: made quickly, without flips of base edges, remeshed, encoded with
+/// lifted Butterfly, decoded at some sizes and measured. A single number of the same stream in full differs by some
+/// tenths of a dB; its rank among others is what counts.
 class MapWorth {
  public:
   struct Value {

@@ -29,7 +29,9 @@ void require_edges(const Mesh& mesh, const FeatureEdges& edges) {
   if (!std::is_sorted(edges.begin(), edges.end())) throw Error(Cause::Malformed, "features are not ascending");
 }
 
-FeatureEdges asked_for(const Mesh& mesh, const ParameterizeOptions& options) {
+}  // namespace
+
+FeatureEdges wanted_features(const Mesh& mesh, const ParameterizeOptions& options) {
   if (options.features) {
     require_edges(mesh, *options.features);
     return *options.features;
@@ -39,7 +41,12 @@ FeatureEdges asked_for(const Mesh& mesh, const ParameterizeOptions& options) {
   return edges_sharper_than(mesh, options.feature_degrees);
 }
 
-}  // namespace
+int base_for_all(const std::vector<FeatureCurve>& curves) {
+  const int corners = corners_needed(curves);
+  int base = static_cast<int>(corners / kRoom);
+  while (corners > kRoom * base) ++base;
+  return base;
+}
 
 int corners_needed(const std::vector<FeatureCurve>& curves) {
   std::vector<int> corners;
@@ -55,7 +62,7 @@ int corners_needed(const std::vector<FeatureCurve>& curves) {
 }
 
 ChosenFeatures choose_features(const Mesh& mesh, const ParameterizeOptions& options) {
-  ChosenFeatures chosen{asked_for(mesh, options), 0, 0};
+  ChosenFeatures chosen{wanted_features(mesh, options), 0, 0};
   if (chosen.edges.empty()) return chosen;
   std::vector<FeatureCurve> curves = feature_curves(mesh, chosen.edges);
   const double room = options.base_vertices > 0 ? kRoom * options.base_vertices

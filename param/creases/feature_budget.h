@@ -13,6 +13,13 @@ struct ChosenFeatures {
   int given_way = 0;  ///< curves that were dropped
 };
 
+/// All features that the options ask for, whether the base has room for them or not. Throws as `choose_features`. O(F
+/// log F).
+FeatureEdges wanted_features(const Mesh& mesh, const ParameterizeOptions& options);
+
+/// The least number of base vertices asked for with which none of these curves gives way.
+int base_for_all(const std::vector<FeatureCurve>& curves);
+
 /// Base vertices that curves need at least: their corners, and three on a closed one.
 int corners_needed(const std::vector<FeatureCurve>& curves);
 

@@ -20,13 +20,15 @@ BaseByRate choice(const Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("the base by rate is the best of those that were tried, the same for one and two threads", "[slow]") {
+TEST_CASE("the base by rate is the best of those that were tried or beside it, the same for one and two threads",
+          "[slow]") {
   const Mesh mesh = shapes::bumpy_sphere(3);
   const auto [one, two] = by_one_and_two_threads([&] { return choice(mesh); });
   REQUIRE(!one.tried.empty());
   const auto best = std::max_element(one.tried.begin(), one.tried.end(),
                                      [](const BaseTried& a, const BaseTried& b) { return a.psnr_db < b.psnr_db; });
-  CHECK(one.base_vertices == best->asked);
+  const double octaves = std::log2(static_cast<double>(one.base_vertices) / best->asked);
+  CHECK(std::abs(octaves) < 0.6);  // one step of the ladder
   CHECK(two.base_vertices == one.base_vertices);
   REQUIRE(two.tried.size() == one.tried.size());
   for (std::size_t i = 0; i < one.tried.size(); ++i) CHECK(two.tried[i].psnr_db == one.tried[i].psnr_db);

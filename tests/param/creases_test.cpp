@@ -203,6 +203,18 @@ TEST_CASE("curves for which a base has no room give way") {
   CHECK(result.map.base.vertex_count() <= 8);
 }
 
+TEST_CASE("a base has room for all features from the size that says so on") {
+  const Mesh box = shapes::box(3);
+  ParameterizeOptions options;
+  const FeatureEdges edges = wanted_features(box, options);
+  options.base_vertices = base_for_all(feature_curves(box, edges));
+  CHECK(options.base_vertices == 20);  // 8 corners on two fifths of the base
+  CHECK(choose_features(box, options).edges == edges);
+  --options.base_vertices;
+  CHECK(choose_features(box, options).given_way > 0);
+  CHECK(base_for_all({}) == 0);
+}
+
 TEST_CASE("a surface without features has the same map with them asked for") {
   const Mesh sphere = shapes::bumpy_sphere(3);
   const ParameterizeResult with = creased(sphere, 12), without = creased(sphere, 12, kNoFeatures);

@@ -47,7 +47,13 @@ TEST_CASE("vertices slide onto a crease, the freer they are the nearer", "[slow]
   const auto error = [&](Positions positions) { return std::sqrt(mean_square(remeshed(map, 3, positions), points)); };
   const double sampled = error(Positions::Sampled), fitted = error(Positions::Fitted),
                closest = error(Positions::Closest);
+  RemeshOptions quick{3};
+  quick.most_fit_rounds = 1;
+  Progress silent;
+  const double one_round = std::sqrt(mean_square(remesh(map, quick, silent), points));
   CHECK(sampled > 0.01 * row);
+  CHECK(one_round < sampled);
+  CHECK(fitted < one_round);
   CHECK(fitted < 0.5 * sampled);
   CHECK(closest < 0.1 * sampled);
 }
