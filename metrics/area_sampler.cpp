@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "mesh/error.h"
-#include "mesh/parallel.h"
 #include "mesh/random.h"
 
 namespace gsp {
@@ -63,23 +62,18 @@ struct AreaSampler::Span {
   Vec3 corner, edge1, edge2;
 };
 
-AreaSampler::AreaSampler(const Mesh& mesh, const std::vector<int>& order, std::vector<float> density,
-                         std::size_t samples, std::uint64_t seed)
+AreaSampler::AreaSampler(const Mesh& mesh, const std::vector<int>& order, const std::vector<double>& areas,
+                         std::vector<float> density, std::size_t samples, std::uint64_t seed)
     : mesh_(mesh),
       order_(order),
       density_(std::move(density)),
       cumulative_(order.size() + 1, 0.0),
       samples_(samples),
       seed_(seed) {
-  constexpr std::size_t kGrain = 8192;
-  parallel_for(order.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) cumulative_[i + 1] = face_area(mesh, order[i]);
-  });
   double area = 0.0;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const double face = cumulative_[i + 1];
-    area += face;
-    cumulative_[i + 1] = cumulative_[i] + (density_.empty() ? face : face * density_[i]);
+    area += areas[i];
+    cumulative_[i + 1] = cumulative_[i] + (density_.empty() ? areas[i] : areas[i] * density_[i]);
   }
   if (!(area > 0.0)) throw Error(Cause::NoFaces, "a surface without area has no samples");
   density_scale_ = cumulative_.back() / area;

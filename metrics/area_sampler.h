@@ -14,11 +14,12 @@ namespace gsp {
 /// more; each sample then stands for less area there.
 class AreaSampler {
  public:
-  /// `order`: #F, the faces in the order in which they are sampled; both are kept by reference. `samples` >= 1.
+  /// `order`: #F, the faces in the order in which they are sampled, kept by reference as the mesh is; `areas`: theirs,
+  /// in that order. `samples` >= 1.
   /// `density`: #F in that order, positive samples per area up to a common factor; empty for the same everywhere.
   /// Throws Error(NoFaces) where no face has area.
-  AreaSampler(const Mesh& mesh, const std::vector<int>& order, std::vector<float> density, std::size_t samples,
-              std::uint64_t seed);
+  AreaSampler(const Mesh& mesh, const std::vector<int>& order, const std::vector<double>& areas,
+              std::vector<float> density, std::size_t samples, std::uint64_t seed);
 
   /// Points of the strata [begin, end) into out[0..end-begin), and the areas they stand for, in units of the mean one,
   /// into weight[0..end-begin). `begin` is a multiple of kBlock, since the random numbers of each such block are its

@@ -26,7 +26,7 @@ double mpeg_db(double peak, double mean_square, double rounding) {
 /// Mean over even samples of the squared distance to the plane of the nearest face.
 double mean_squared_plane_distance(const Mesh& from, const TriangleTree& from_tree, const TriangleTree& to,
                                    const DistanceOptions& options) {
-  const AreaSampler sampler(from, from_tree.order(), {}, options.samples, options.seed);
+  const AreaSampler sampler(from, from_tree.order(), from_tree.areas(), {}, options.samples, options.seed);
   std::vector<double> sums((options.samples + AreaSampler::kBlock - 1) / AreaSampler::kBlock, 0.0);
   parallel_for(options.samples, AreaSampler::kBlock, [&](std::size_t begin, std::size_t end) {
     std::array<Vec3, AreaSampler::kBlock> points;

@@ -85,7 +85,7 @@ std::vector<float> sample_density(const Mesh& from, const TriangleTree& from_tre
   const std::size_t pilot = std::min(samples / kPilotShare, kMostPilots);
   if (pilot < 4 * kWindow) return {};
   const std::vector<int>& order = from_tree.order();
-  const AreaSampler sampler(from, order, {}, pilot, seed);
+  const AreaSampler sampler(from, order, from_tree.areas(), {}, pilot, seed);
   const std::vector<double> before = smoothed_sums(window_deviations(sampler, to));
   const bool ask_vertices = from.positions.size() <= samples / kVertexShare;
   const std::vector<double> squares = ask_vertices ? vertex_squares(from, order, to) : std::vector<double>();

@@ -111,7 +111,7 @@ OneWayDistance sampled_distance(const Mesh& from, const TriangleTree& from_tree,
   std::size_t samples = options.samples;
   while (true) {
     progress.report(stage, 0.0);
-    const AreaSampler sampler(from, from_tree.order(),
+    const AreaSampler sampler(from, from_tree.order(), from_tree.areas(),
                               sample_density(from, from_tree, to, samples, options.seed ^ kPilotSeed), samples,
                               options.seed);
     const OneWayDistance result = measure(sampler, to, diagonal, stage, progress);

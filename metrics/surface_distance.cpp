@@ -13,6 +13,8 @@
 namespace gsp {
 
 SurfaceTree::SurfaceTree(const Mesh& mesh) : impl_(std::make_unique<Impl>(Impl{TriangleTree(mesh)})) {}
+SurfaceTree::SurfaceTree(const Mesh& mesh, const SurfaceTree& like)
+    : impl_(std::make_unique<Impl>(Impl{TriangleTree(mesh, like.impl().tree)})) {}
 SurfaceTree::~SurfaceTree() = default;
 SurfaceTree::SurfaceTree(SurfaceTree&&) noexcept = default;
 SurfaceTree& SurfaceTree::operator=(SurfaceTree&&) noexcept = default;

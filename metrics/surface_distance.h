@@ -17,6 +17,9 @@ class SurfaceTree {
  public:
   /// Throws the errors of `require_finite_surface`.
   explicit SurfaceTree(const Mesh& mesh);
+  /// Much sooner made, of a surface whose faces lie beside each other as those of `like` do, such as another decoded
+  /// prefix of one stream. Throws Error(BadOption) where the numbers of faces differ, too.
+  SurfaceTree(const Mesh& mesh, const SurfaceTree& like);
   ~SurfaceTree();
   SurfaceTree(SurfaceTree&&) noexcept;
   SurfaceTree& operator=(SurfaceTree&&) noexcept;

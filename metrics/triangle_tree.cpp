@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "mesh/error.h"
 #include "mesh/parallel.h"
 #include "mesh/topology.h"
 
@@ -76,21 +77,40 @@ void split_all(std::vector<Entry>& entries, std::size_t begin, std::size_t end, 
 
 TriangleTree::TriangleTree(const Mesh& mesh) {
   require_finite_surface(mesh);
+  set_scale(mesh);
+  sort_places(mesh);
+  build_frames(mesh);
+  build_boxes(mesh);
+}
+
+TriangleTree::TriangleTree(const Mesh& mesh, const TriangleTree& like) : order_(like.order_), place_(like.place_) {
+  if (mesh.faces.size() != order_.size())
+    throw Error(Cause::BadOption, "a tree of another number of faces does not say how these are ordered");
+  require_finite_surface(mesh);
+  set_scale(mesh);
+  build_frames(mesh);
+  build_boxes(mesh);
+}
+
+void TriangleTree::set_scale(const Mesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const Triangle& face : mesh.faces)
     for (int vertex : face) box.extend(mesh.positions[vertex]);
   centre_ = box.center();
   const double extent = 0.5 * box.sizes().maxCoeff();
   if (extent > 0.0) scale_ = 1.0 / extent;
-  sort_places(mesh);
+}
+
+void TriangleTree::build_frames(const Mesh& mesh) {
   frames_.resize(order_.size());
+  areas_.resize(order_.size());
   parallel_for(order_.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Triangle& t = mesh.faces[order_[i]];
       frames_[i] = TriangleFrame(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+      areas_[i] = face_area(mesh, order_[i]);
     }
   });
-  build_boxes(mesh);
 }
 
 float TriangleTree::scaled(double value, int axis) const {

@@ -19,11 +19,17 @@ class TriangleTree {
  public:
   /// Throws the errors of `require_finite_surface`.
   explicit TriangleTree(const Mesh& mesh);
+  /// In the order of another tree, with boxes of its own: O(F), a quarter of the time. Distances are those of any tree;
+  /// finding them is as fast where the faces lie beside each other as there, as in decoded prefixes of one stream.
+  /// Throws Error(BadOption) where the numbers of faces differ, and the errors of `require_finite_surface`.
+  TriangleTree(const Mesh& mesh, const TriangleTree& like);
 
   /// #F, the faces in the tree's order, which keeps neighbours in space together.
   const std::vector<int>& order() const { return order_; }
   /// Place of a face in that order.
   int place(int face) const { return place_[face]; }
+  /// #F, the faces' areas in the tree's order.
+  const std::vector<double>& areas() const { return areas_; }
   /// Longest edge of the triangle at a place.
   double size(int place) const { return frames_[place].length; }
 
@@ -50,7 +56,10 @@ class TriangleTree {
     float low[3], high[3];
   };
 
+  /// Where scaled coordinates are 0 and what 1 is.
+  void set_scale(const Mesh& mesh);
   void sort_places(const Mesh& mesh);
+  void build_frames(const Mesh& mesh);
   void build_boxes(const Mesh& mesh);
   float scaled(double value, int axis) const;
   template <int G>
@@ -64,6 +73,7 @@ class TriangleTree {
   void search(const PointGroup<G>& points, double* squared, int& hint) const;
 
   std::vector<int> order_, place_;
+  std::vector<double> areas_;              ///< in the tree's order
   std::vector<TriangleFrame> frames_;      ///< in the tree's order
   std::vector<std::vector<Node>> levels_;  ///< levels_[0] holds the triangles' boxes; the last has one node
   Vec3 centre_ = Vec3::Zero();

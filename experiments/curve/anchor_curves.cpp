@@ -15,9 +15,11 @@ constexpr int kFewestBits = 4, kMostBits = 16;
 // What is on the envelope is foretold from the distance of each decimated surface, by few samples, and the error of the
 // grid. On the paper's models the foretold PSNR is within 0.1 dB of the measured one.
 constexpr std::size_t kSamplesToForetell = 10000;
-// Curves rise by 5 dB and more an octave of bytes. A size that gains less an octave of faces over the next smaller one
-// at the same bits is not on the envelope, nor is a bit more that gains less than this.
-constexpr double kLeastGainPerOctaveDb = 1.2, kLeastGainPerBitDb = 0.15;
+// Curves rise by 5 dB and more an octave of bytes, of which one bit more is a fifth. A size that gains less an octave
+// of faces over the next smaller one at the same bits is not on the envelope, nor is a bit that gains less than this,
+// nor, but for the input itself, one that the next bit gains more on. On the curves of four models bits gained at least
+// 0.2, the next ones at most 3.3 dB.
+constexpr double kLeastGainPerOctaveDb = 1.2, kLeastGainPerBitDb = 0.2, kMostGainOfNextBitDb = 3.5;
 // How far under the foretold curve a combination may be for it to be measured.
 constexpr double kMarginDb = 0.2;
 // Sizes between two of `decimation_sizes` pass a point under the chord of points so close.
@@ -59,10 +61,11 @@ Size foretold(const Meter& meter, Mesh mesh) {
   return size;
 }
 
-// `smaller` is null for the smallest size.
-bool may_be_on_envelope(const Size& size, const Size* smaller, int bits) {
+// `larger` is null for the input, `smaller` for the smallest size.
+bool may_be_on_envelope(const Size& size, const Size* larger, const Size* smaller, int bits) {
   const double db = size.foretold_db[bits];
   if (bits > kFewestBits && db - size.foretold_db[bits - 1] < kLeastGainPerBitDb) return false;
+  if (larger && bits < kMostBits && size.foretold_db[bits + 1] - db > kMostGainOfNextBitDb) return false;
   return !smaller || db - smaller->foretold_db[bits] >= kLeastGainPerOctaveDb * (size.octaves - smaller->octaves);
 }
 
@@ -87,7 +90,8 @@ std::vector<Candidate> candidates(const Meter& meter, Decimation decimation, Pro
   std::vector<std::pair<std::size_t, int>> chosen;  // size and bits
   for (std::size_t i = 0; i < sizes.size(); ++i)
     for (int bits = kFewestBits; bits <= kMostBits; ++bits)
-      if (may_be_on_envelope(sizes[i], i + 1 < sizes.size() ? &sizes[i + 1] : nullptr, bits))
+      if (may_be_on_envelope(sizes[i], i > 0 ? &sizes[i - 1] : nullptr, i + 1 < sizes.size() ? &sizes[i + 1] : nullptr,
+                             bits))
         chosen.emplace_back(i, bits);
   progress.report("decimate, then Draco: encode", 0.0);
   std::vector<Candidate> coded(chosen.size());

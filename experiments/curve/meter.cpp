@@ -8,7 +8,12 @@ Meter::Meter(const Mesh& mesh, const std::string& model, std::uint64_t seed)
     : mesh_(mesh), model_(model), seed_(seed), tree_(mesh) {}
 
 CurvePoint Meter::measure(const Mesh& decoded, std::size_t bytes, std::size_t samples, Progress& progress) const {
-  const SurfaceDistance distance = surface_distance(mesh_, tree_, decoded, {samples, seed_}, progress);
+  return measure(decoded, SurfaceTree(decoded), bytes, samples, progress);
+}
+
+CurvePoint Meter::measure(const Mesh& decoded, const SurfaceTree& tree, std::size_t bytes, std::size_t samples,
+                          Progress& progress) const {
+  const SurfaceDistance distance = surface_distance(mesh_, tree_, decoded, tree, {samples, seed_}, progress);
   CurvePoint point;
   point.model = model_;
   point.bytes = bytes;

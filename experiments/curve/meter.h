@@ -19,6 +19,10 @@ class Meter {
   /// A row with everything filled in that follows from the two surfaces and the byte count.
   CurvePoint measure(const Mesh& decoded, std::size_t bytes, std::size_t samples, Progress& progress) const;
 
+  /// The same where the surface's tree is at hand.
+  CurvePoint measure(const Mesh& decoded, const SurfaceTree& tree, std::size_t bytes, std::size_t samples,
+                     Progress& progress) const;
+
  private:
   const Mesh& mesh_;
   std::string model_;

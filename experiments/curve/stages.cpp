@@ -46,9 +46,19 @@ MeasuredRemesh measured_remesh(const Parameterization& map, const RemeshOptions&
 std::vector<CurvePoint> decoded_curve(const Bytes& stream, const std::vector<std::size_t>& wanted, const Meter& meter,
                                       std::size_t samples, Progress& progress) {
   const std::vector<std::size_t> budgets = byte_budgets(wanted, header_bytes(stream), stream.size());
+  progress.report(kDecodeAndMeasure, 0.0);
+  // Prefixes have the faces of the whole stream, unless they are too short for its level, and nearly its places.
+  const Mesh whole = decode(stream, stream.size()).mesh();
+  const SurfaceTree tree(whole);
   std::vector<CurvePoint> points(budgets.size());
   side_by_side(budgets.size(), kDecodeAndMeasure, progress, [&](std::size_t i, Progress& silent) {
-    points[i] = meter.measure(decode(stream, budgets[i]).mesh(), budgets[i], samples, silent);
+    if (budgets[i] == stream.size()) {
+      points[i] = meter.measure(whole, tree, budgets[i], samples, silent);
+      return;
+    }
+    const Mesh mesh = decode(stream, budgets[i]).mesh();
+    const SurfaceTree own = mesh.faces.size() == whole.faces.size() ? SurfaceTree(mesh, tree) : SurfaceTree(mesh);
+    points[i] = meter.measure(mesh, own, budgets[i], samples, silent);
   });
   return points;
 }

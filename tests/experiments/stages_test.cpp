@@ -63,3 +63,19 @@ TEST_CASE("a mode's rows do not depend on what else is asked for", "[slow]") {
     CHECK(both[alone.size() + i].bytes == alone[i].bytes);
   }
 }
+
+TEST_CASE("prefixes measured by the order of the whole stream are as far as measured alone", "[slow]") {
+  const Mesh input = shapes::bumpy_sphere(4);
+  const SemiregularMesh mesh = remesh(parameterize(input, {.base_vertices = 12}, silent).map, {}, silent);
+  const Bytes stream = encode(mesh, {}, silent);
+  const Meter meter(input, "ball", 1);
+  const std::vector<std::size_t> budgets = {200, 300, 1000};
+  const std::vector<CurvePoint> rows = decoded_curve(stream, budgets, meter, 100000, silent);
+  REQUIRE(rows.size() == budgets.size() + 1);
+  for (const CurvePoint& row : rows) {
+    const CurvePoint alone = meter.measure(decode(stream, row.bytes).mesh(), row.bytes, 100000, silent);
+    CAPTURE(row.bytes);
+    CHECK(row.faces == alone.faces);
+    CHECK(row.psnr_db == Approx(alone.psnr_db).margin(4.0 * (row.standard_error_db + alone.standard_error_db)));
+  }
+}

@@ -18,9 +18,15 @@ std::vector<int> in_order(const Mesh& mesh) {
   return order;
 }
 
+std::vector<double> areas(const Mesh& mesh) {
+  std::vector<double> areas;
+  for (int f = 0; f < mesh.face_count(); ++f) areas.push_back(face_area(mesh, f));
+  return areas;
+}
+
 std::vector<Vec3> samples(const Mesh& mesh, std::size_t count, std::uint64_t seed) {
   const std::vector<int> order = in_order(mesh);
-  const AreaSampler sampler(mesh, order, {}, count, seed);
+  const AreaSampler sampler(mesh, order, areas(mesh), {}, count, seed);
   std::vector<double> weights(count);
   std::vector<Vec3> points(count);
   for (std::size_t begin = 0; begin < count; begin += AreaSampler::kBlock)

@@ -8,6 +8,7 @@
 
 #include "mesh/shapes.h"
 #include "tests/by_threads.h"
+#include "tests/cause_of.h"
 #include "tests/metrics/brute_force.h"
 
 using namespace gsp;
@@ -162,6 +163,26 @@ TEST_CASE("a tree at hand gives the same as building it") {
   Progress silent;
   const SurfaceTree tree(a);
   CHECK(same_bits(surface_distance(a, tree, b, {5000, 3}, silent).backward, measure(a, b, 5000, 3).backward));
+}
+
+TEST_CASE("a tree in the order of another finds the same nearest points as one of its own") {
+  const Mesh ball = shapes::bumpy_sphere(4);
+  Mesh moved = ball, shuffled = ball;
+  for (Vec3& p : moved.positions)
+    p = Vec3(3.0 * p.x() + 5.0, p.y() - p.z(), 0.2 * p.z() + 0.1 * std::sin(20.0 * p.x()));
+  for (std::size_t f = 0; f < shuffled.faces.size(); ++f) std::swap(shuffled.faces[f], shuffled.faces[f * 7 % 500]);
+  const SurfaceTree like(ball);
+  const std::vector<Vec3> points = shapes::torus(40, 30).positions;
+  for (const Mesh& mesh : {ball, moved, shuffled}) {
+    const SurfaceTree own(mesh), in_that_order(mesh, like);
+    for (const Vec3& p : points) {
+      int hint = -1, other_hint = -1;
+      CHECK(in_that_order.squared_distance(p, hint) == own.squared_distance(p, other_hint));
+    }
+  }
+  CHECK(cause_of([&] { SurfaceTree(shapes::sphere(2), like); }) == Cause::BadOption);
+  moved.positions.front().x() = std::numeric_limits<double>::quiet_NaN();
+  CHECK(cause_of([&] { SurfaceTree(moved, like); }) == Cause::NonFinite);
 }
 
 TEST_CASE("refusals have a cause") {
