@@ -14,6 +14,10 @@ namespace gsp {
 /// steps between a grid and no grid at all have no points.
 inline constexpr const char* kDracoLossless = "draco-lossless";
 
+/// What the coder of a point begins with that was measured on another model than the row's: it is drawn, and no gain is
+/// said of it.
+inline constexpr const char* kAnotherModel = "another model: ";
+
 /// One row of curve.csv: one decoded size of one method on one model. Distances are relative to the input's
 /// bounding-box diagonal, bytes are those that were decoded. Units and meanings stand in point_fields.cpp.
 struct CurvePoint {

@@ -26,7 +26,8 @@ std::vector<CurvePoint> codec_curve(const ExternalTool& tool, const Meter& meter
 CurvePoint foreign_row(const ForeignPoint& foreign, const Meter& meter) {
   CurvePoint row;
   row.model = meter.model();
-  row.coder = foreign.label;
+  if (!foreign.measured_on.empty()) row.coder = kAnotherModel + foreign.measured_on;
+  if (!foreign.label.empty()) row.coder += (row.coder.empty() ? "" : ": ") + foreign.label;
   if (!foreign.note.empty()) row.coder += (row.coder.empty() ? "" : ": ") + foreign.note;
   row.bytes = foreign.bytes;
   row.bits_per_vertex = 8.0 * static_cast<double>(foreign.bytes) / meter.mesh().vertex_count();

@@ -32,6 +32,11 @@ std::vector<CurveSeries> curves_of(const CurvePoints& points) {
 
 bool on_a_curve(const CurvePoint& point) { return point.coder != kDracoLossless; }
 
+bool of_another_model(const CurvePoints& points) {
+  return std::any_of(points.begin(), points.end(),
+                     [](const CurvePoint& point) { return point.coder.rfind(kAnotherModel, 0) == 0; });
+}
+
 RateCurve envelope_of(const CurvePoints& points) {
   RateCurve curve;
   for (const CurvePoint& point : points)
@@ -79,7 +84,8 @@ std::vector<PairedRuns> paired_runs(const CurveSeries& first, const CurveSeries&
   std::vector<PairedRuns> pairs;
   for (const auto& [replicate, points] : first.runs)
     for (const auto& [other, others] : second.runs)
-      if (once || other == replicate) pairs.push_back({first.runs.size() > 1 ? replicate : other, &points, &others});
+      if ((once || other == replicate) && !of_another_model(points) && !of_another_model(others))
+        pairs.push_back({first.runs.size() > 1 ? replicate : other, &points, &others});
   return pairs;
 }
 

@@ -32,6 +32,9 @@ void add_run(std::vector<CurveSeries>& curves, const std::string& name, int repl
 /// False for the row of `kDracoLossless`, which says from where on no curve can win.
 bool on_a_curve(const CurvePoint& point);
 
+/// Whether the points were measured on another model than the rows name.
+bool of_another_model(const CurvePoints& points);
+
 /// The curve that points make: the upper envelope of those on a curve.
 RateCurve envelope_of(const CurvePoints& points);
 
@@ -47,7 +50,8 @@ std::optional<double> exact_from(const CurveSeries& series);
 BdCurve bd_curve(const CurvePoints& points);
 
 /// The runs of two series that are to be held against each other: those of the same replicate, since they stand on one
-/// base. A series with one run, as that of an anchor, goes with each run of the other.
+/// base. A series with one run, as that of an anchor, goes with each run of the other. None where either is of another
+/// model.
 struct PairedRuns {
   int replicate;  ///< of the series that has several
   const CurvePoints* first;

@@ -128,6 +128,11 @@ CurveSummary summarize(const std::string& model, const std::vector<CurveSeries>&
       if (row.coder == kDracoLossless) m.lossless_bytes = row.bytes;
     for (double level : kTableLevelsDb) m.bytes_at.push_back(mean_bytes_at(series, level));
     if (summary.methods.size() == 1) continue;
+    if (paired_runs(first, series).empty()) {
+      m.no_bd =
+          of_another_model(series.runs.begin()->second) ? "its points are of another model" : "no replicate in common";
+      continue;
+    }
     compare_gain(m, first, series);
     compare_bd(m, first, series);
     const auto ours = mean_bytes_at(first, kRatioLevelDb), theirs = mean_bytes_at(series, kRatioLevelDb);

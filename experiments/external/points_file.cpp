@@ -27,6 +27,7 @@ std::vector<ForeignPoint> read_points_file(const std::string& path) try {
     row.read("bytes", point.bytes);
     row.read("psnr_db", point.psnr_db);
     if (point.bytes == 0) throw Error(Cause::Malformed, "a point of no bytes", Element::Line, row.line());
+    if (row.has("measured_on")) point.measured_on = row.text("measured_on");
     if (row.has("label")) point.label = row.text("label");
     if (row.has("note")) point.note = row.text("note");
   }

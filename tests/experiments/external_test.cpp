@@ -278,6 +278,9 @@ TEST_CASE("the points that are shipped can be read") {
   const std::filesystem::path folder(GSP_RECIPES);
   CHECK(read_points_file((folder / "points/vdmc.csv").string()).size() == 30);
   CHECK(read_points_file((folder / "points/neural.csv").string()).size() == 2);
+  const std::vector<ForeignPoint> normal = read_points_file((folder / "points/normal-meshes.csv").string());
+  CHECK(normal.size() == 8);
+  for (const ForeignPoint& point : normal) CHECK((point.measured_on == "dinosaur" || point.measured_on == "molecule"));
 }
 
 TEST_CASE("Draco's own tool makes of a decimated surface the anchor's bytes") {

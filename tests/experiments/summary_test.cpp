@@ -62,6 +62,21 @@ TEST_CASE("a summary gives back the gain, the range and the ratio that the curve
   CHECK(draco.positions.empty());
 }
 
+TEST_CASE("points of another model have a curve, but no gain") {
+  std::vector<CurvePoint> points;
+  add_method(points, "gsp", 43.0, 80.0);
+  add_method(points, "elsewhere", 40.0, 0.0);
+  CHECK(summarize("model", curves_of(points)).methods[1].gain);
+  for (CurvePoint& point : points)
+    if (point.method == "elsewhere") point.coder = std::string(kAnotherModel) + "dinosaur";
+  const MethodSummary elsewhere = summarize("model", curves_of(points)).methods[1];
+  CHECK(elsewhere.bytes_at[3]);
+  CHECK_FALSE(elsewhere.gain);
+  CHECK_FALSE(elsewhere.bd);
+  CHECK_FALSE(elsewhere.bytes_ratio);
+  CHECK(elsewhere.no_bd == "its points are of another model");
+}
+
 TEST_CASE("streams made for one size alone are a curve of their own beside the embedded one of their method") {
   std::vector<CurvePoint> points, fixed;
   add_method(points, "gsp", 43.0, 80.0);
