@@ -32,6 +32,8 @@ void add_run(std::vector<CurveSeries>& curves, const std::string& name, int repl
 /// False for the row of `kDracoLossless`, which says from where on no curve can win.
 bool on_a_curve(const CurvePoint& point);
 
+/// Why such points are in no comparison.
+inline constexpr const char* kNoComparison = "its points are of another model";
 /// Whether the points were measured on another model than the rows name.
 bool of_another_model(const CurvePoints& points);
 

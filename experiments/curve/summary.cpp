@@ -129,8 +129,7 @@ CurveSummary summarize(const std::string& model, const std::vector<CurveSeries>&
     for (double level : kTableLevelsDb) m.bytes_at.push_back(mean_bytes_at(series, level));
     if (summary.methods.size() == 1) continue;
     if (paired_runs(first, series).empty()) {
-      m.no_bd =
-          of_another_model(series.runs.begin()->second) ? "its points are of another model" : "no replicate in common";
+      m.no_bd = of_another_model(series.runs.begin()->second) ? kNoComparison : "no replicate in common";
       continue;
     }
     compare_gain(m, first, series);

@@ -10,6 +10,7 @@ Comparison compare(const std::string& model, const CurveSeries& reference, const
   Comparison result;
   result.model = model;
   result.label = series.name;
+  if (of_another_model(series.runs.begin()->second)) result.note = kNoComparison;
   for (const auto& [replicate, ours, theirs] : paired_runs(reference, series)) try {
       const BdResult bd = bd_compare(bd_curve(*ours), bd_curve(*theirs), {});
       result.log_rates[replicate] = log_rate(bd.rate.value);

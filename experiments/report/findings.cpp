@@ -90,17 +90,20 @@ std::string against(const std::string& reference, const Standing& other) {
 void tell_method(const Findings& found, const std::string& label, std::vector<std::string>& sentences) {
   std::string each;
   std::vector<std::string> missing;
+  bool elsewhere = false;
   for (const Comparison& c : found.comparisons) {
     if (c.label != label) continue;
     if (c.bd_rate)
       each += fmt::format("{}{} {}{}", each.empty() ? "" : ", ", c.model, signed_percent(-saving(*c.bd_rate), 0),
                           c.note.empty() ? "" : "*");
     else
-      missing.push_back(c.model);
+      missing.push_back(c.model), elsewhere = c.note == kNoComparison;
   }
   const std::optional<Standing> mean = found.mean(label);
   if (!mean) {
-    if (!missing.empty())
+    if (elsewhere)
+      sentences.push_back(fmt::format("{} is drawn alone: {}.", label, kNoComparison));
+    else if (!missing.empty())
       sentences.push_back(fmt::format("{} and {} reach no common PSNR below their ceilings.", found.reference, label));
     return;
   }

@@ -1,5 +1,6 @@
 #include "experiments/report/report.h"
 
+#include <fmt/ranges.h>
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -199,6 +200,16 @@ TEST_CASE("where no setting beats the reference, the report says so, and of mode
                                           ": ball: the reference itself; cube: " + run.cells[3].label + " (−20.0%).");
   run.cells[3] = setting("cube", 0.0, 1.0, 1.5);
   CHECK(findings(run).sentences[1] == "No setting is better than " + reference + " on any model.");
+}
+
+TEST_CASE("nothing is said of a gain over points of another model") {
+  Run run;
+  run.models.emplace_back().name = "ball";
+  run.cells = {setting("ball", 2.0, 1.0, 1.0), setting("ball", 0.0, 1.0, 1.5)};
+  for (CurvePoint& point : run.cells[1].stages[0].points) point.coder = std::string(kAnotherModel) + "dinosaur";
+  const std::string all = fmt::format("{}", fmt::join(findings(run).sentences, "\n"));
+  CHECK(contains(all, run.cells[1].label + " is drawn alone: its points are of another model."));
+  CHECK_FALSE(contains(all, "%"));
 }
 
 TEST_CASE("a report of a curve folder is one page that needs nothing else") {
