@@ -1,6 +1,5 @@
 #include "experiments/report/report.h"
 
-#include <fmt/ranges.h>
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -205,11 +204,15 @@ TEST_CASE("where no setting beats the reference, the report says so, and of mode
 TEST_CASE("nothing is said of a gain over points of another model") {
   Run run;
   run.models.emplace_back().name = "ball";
-  run.cells = {setting("ball", 2.0, 1.0, 1.0), setting("ball", 0.0, 1.0, 1.5)};
-  for (CurvePoint& point : run.cells[1].stages[0].points) point.coder = std::string(kAnotherModel) + "dinosaur";
-  const std::string all = fmt::format("{}", fmt::join(findings(run).sentences, "\n"));
-  CHECK(contains(all, run.cells[1].label + " is drawn alone: its points are of another model."));
-  CHECK_FALSE(contains(all, "%"));
+  run.cells = {setting("ball", 2.0, 1.0, 1.0), setting("ball", 2.0, 1.0, 1.5)};
+  StoredCell& other = run.cells[1];
+  other.label = other.options.method = "other";
+  other.options.external.emplace().kind = ExternalTool::Kind::Points;
+  CHECK(findings(run).comparison("ball", "other")->bd_rate);
+  for (CurvePoint& point : other.stages[0].points) point.coder = std::string(kAnotherModel) + "dinosaur";
+  const Findings found = findings(run);
+  CHECK_FALSE(found.comparison("ball", "other")->bd_rate);
+  CHECK(found.sentences[0] == "other is drawn alone: its points are of another model.");
 }
 
 TEST_CASE("a report of a curve folder is one page that needs nothing else") {
