@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
-#include "metrics/triangle_tree.h"
+#include "mesh/nearest/triangle_tree.h"
 
 namespace gsp {
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "mesh/nearest/triangle_tree.h"
 #include "metrics/surface_distance.h"
-#include "metrics/triangle_tree.h"
 
 namespace gsp {
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "mesh/nearest/triangle_tree.h"
 #include "metrics/surface_distance.h"
-#include "metrics/triangle_tree.h"
 
 namespace gsp {
 

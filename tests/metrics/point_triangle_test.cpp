@@ -1,4 +1,4 @@
-#include "metrics/point_triangle.h"
+#include "mesh/nearest/point_triangle.h"
 
 #include <catch2/catch.hpp>
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "brute_force.h"
+#include "mesh/nearest/triangle_tree.h"
 #include "mesh/shapes.h"
 #include "metrics/quantile_histogram.h"
 #include "metrics/sample_density.h"
@@ -10,7 +11,6 @@
 #include "metrics/singular_values.h"
 #include "metrics/statistics.h"
 #include "metrics/surface_tree_impl.h"
-#include "metrics/triangle_tree.h"
 #include "tests/support/exact_maps.h"
 
 using namespace gsp;

@@ -71,7 +71,7 @@ may_include metrics 'param|mesh'
 may_include experiments 'mesh|param|remesh|coder|metrics'
 may_include cli 'mesh|param|remesh|coder|metrics|experiments'
 may_include python 'mesh|param|remesh|coder|metrics|experiments'
-rooms mesh files features
+rooms mesh files features nearest
 rooms param map atlas linear refined energy removal simplify reinsert corners baselines creases stages
 rooms remesh filters normal displaced scalar
 rooms coder displaced

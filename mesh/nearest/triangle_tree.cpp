@@ -1,4 +1,4 @@
-#include "metrics/triangle_tree.h"
+#include "mesh/nearest/triangle_tree.h"
 
 #include <array>
 #include <bit>

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
-#include "metrics/point_triangle.h"
+#include "mesh/nearest/point_triangle.h"
 
 namespace gsp {
 
