@@ -1,13 +1,17 @@
 #include "remesh/displaced/displaced_remesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
 
 #include "mesh/error.h"
+#include "mesh/nearest/triangle_tree.h"
+#include "mesh/parallel.h"
 #include "remesh/displaced/control_fit.h"
 #include "remesh/displaced/displacement_fit.h"
+#include "remesh/displaced/patch_care.h"
 #include "remesh/fold_guard.h"
 
 namespace gsp {
@@ -44,6 +48,15 @@ class PatchMeans {
   std::vector<double> sums_, weights_;
 };
 
+/// #points, the squared distance of each to a surface.
+std::vector<double> squared_distances(const TriangleTree& surface, const std::vector<Vec3>& points) {
+  std::vector<double> squared(points.size());
+  parallel_for(points.size(), kSearchBlock, [&](std::size_t begin, std::size_t end) {
+    squared_distances(surface, points.data() + begin, end - begin, squared.data() + begin);
+  });
+  return squared;
+}
+
 class DisplacedRemesher {
  public:
   /// `unit`: power of two that coordinates are divided by, so that no square over- or underflows.
@@ -57,17 +70,16 @@ class DisplacedRemesher {
   }
 
   SemiregularMesh run(Progress& progress) {
-    constexpr int kMostRounds = 4;
+    constexpr int kMostRounds = 6;
     const FitTarget target{all_levels_.back(), dense_};
+    const TriangleTree target_tree({dense_, all_levels_.back().faces});
     const ControlMap map(levels_);
-    ControlFitOptions control_options;
-    // Small beside 1, the weight of the distance itself; base faces for which it is too little get more below.
-    control_options.stiffness.assign(levels_.front().face_count(), 0.01);
+    PatchCare care(levels_.front().vertex_count, levels_.front().faces, areas_);
     Attempt best;
     for (int round = 0; round < kMostRounds; ++round) {
       progress.report("displaced remesh", static_cast<double>(round) / kMostRounds);
-      Attempt attempt = try_once(map, target, control_options);
-      const bool done = !hold_what_is_far(attempt.errors, control_options.stiffness);
+      Attempt attempt = try_once(map, target, target_tree, care.now());
+      const bool done = !care.learn(attempt.errors);
       if (attempt.error < best.error) best = std::move(attempt);
       if (done) break;
     }
@@ -96,7 +108,17 @@ class DisplacedRemesher {
 
   const SubdivisionLevel& finest() const { return levels_.back(); }
 
-  Attempt try_once(const ControlMap& map, const FitTarget& target, const ControlFitOptions& control_options) const {
+  /// `care`: #F of the base, as PatchCare says.
+  Attempt try_once(const ControlMap& map, const FitTarget& target, const TriangleTree& target_tree,
+                   const std::vector<int>& care) const {
+    // Small beside 1, the weight of the distance itself; more where that is too little.
+    constexpr std::array<double, PatchCare::kMost + 1> kStiffness = {0.01, 0.01, 0.1, 1.0};
+    ControlFitOptions control_options;
+    std::vector<char> watched;
+    for (int c : care) {
+      control_options.stiffness.push_back(kStiffness[c]);
+      watched.push_back(c > 0);
+    }
     Attempt attempt;
     std::vector<SurfaceSample> samples = target.samples(extra_);
     const std::vector<SurfaceSample> by_map = samples;
@@ -110,21 +132,21 @@ class DisplacedRemesher {
       attempt.missed = pierced.missed;
     } else {
       attempt.displacements =
-          displacements_of(levels_, attempt.surface, fitted_positions(attempt.surface, target, samples));
+          displacements_of(levels_, attempt.surface, fitted_positions(attempt.surface, target, watched, samples));
     }
-    measure(attempt, target, samples, by_map);
+    measure(attempt, target_tree, by_map);
     return attempt;
   }
 
   std::vector<Vec3> fitted_positions(const SmoothSurface& surface, const FitTarget& target,
-                                     std::vector<SurfaceSample>& samples) const {
+                                     const std::vector<char>& watched, std::vector<SurfaceSample>& samples) const {
     // First with room to move, then near the least on the normals alone: with a hundredth of the last weight the part
     // along the surface, which is dropped in the end, costs 0.4 dB of the horse's ceiling.
-    constexpr DisplacementFitOptions kFirst{1e-2, 0.02, 1.0, 4, 0.5};
-    DisplacementFitOptions then{5e-3, 0.01, 0.25, 10, 50.0};
+    const DisplacementFitOptions first{1e-2, 0.02, 1.0, 4, 0.5, 0.03, watched};
+    DisplacementFitOptions then{5e-3, 0.01, 0.25, 10, 50.0, 0.03, watched};
     if (options_.positions == Positions::Closest) then.stiffness /= 10.0;
     std::vector<Vec3> moves(surface.points.size(), Vec3::Zero());
-    moves = fit_displacements(levels_, surface, target, kFirst, samples, moves);
+    moves = fit_displacements(levels_, surface, target, first, samples, moves);
     moves = fit_displacements(levels_, surface, target, then, samples, moves);
     for (std::size_t v = 0; v < moves.size(); ++v) moves[v] += surface.points[v];
     return moves;
@@ -132,51 +154,24 @@ class DisplacedRemesher {
 
   /// The mean squared distance over each base face and over all, in the worse of both directions: few vertices that lie
   /// off the surface can weigh more in a remesh's error than all of the surface's distance from it.
-  void measure(Attempt& attempt, const FitTarget& target, std::vector<SurfaceSample>& samples,
-               const std::vector<SurfaceSample>& by_map) const {
+  void measure(Attempt& attempt, const TriangleTree& target_tree, const std::vector<SurfaceSample>& by_map) const {
     const std::vector<Vec3> points = displaced_points(levels_, attempt.surface, attempt.displacements);
     const int shift = 2 * static_cast<int>(levels_.size() - 1);
     PatchMeans forward(levels_.front().face_count()), backward = forward;
-    for (std::size_t i = 0; i < samples.size(); ++i)
-      forward.add(by_map[i].place.face >> shift, samples[i].weight,
-                  walk_to_nearest(finest(), points, samples[i].point, samples[i].place));
+    const std::vector<double> there = squared_distances(TriangleTree({points, finest().faces}), dense_);
+    for (std::size_t i = 0; i < by_map.size(); ++i)
+      forward.add(by_map[i].place.face >> shift, by_map[i].weight, there[i]);
     // Of the remesh its edges' midpoints, weighed by the area beside them: faces that jut out are large.
-    std::vector<LevelPlace> places = target.vertex_places(finest().vertex_count);
-    for (int e = 0; e < finest().edge_count(); ++e) {
-      const auto [a, b] = finest().edges[e];
-      LevelPlace place = places[a];
-      const double squared = walk_to_nearest(target.level, target.positions, 0.5 * (points[a] + points[b]), place);
-      for (int f : finest().edge_faces[e]) {
-        if (f < 0) continue;
-        backward.add(f >> shift, doubled_area(finest().faces[f], points).norm(), squared);
-      }
-    }
+    std::vector<Vec3> middles;
+    for (const auto& [a, b] : finest().edges) middles.push_back(0.5 * (points[a] + points[b]));
+    const std::vector<double> back = squared_distances(target_tree, middles);
+    for (int e = 0; e < finest().edge_count(); ++e)
+      for (int f : finest().edge_faces[e])
+        if (f >= 0) backward.add(f >> shift, doubled_area(finest().faces[f], points).norm(), back[e]);
     attempt.errors.resize(levels_.front().face_count());
     for (std::size_t f = 0; f < attempt.errors.size(); ++f)
       attempt.errors[f] = std::max(forward.mean(f), backward.mean(f));
     attempt.error = std::max(forward.sum(areas_), backward.sum(areas_));
-  }
-
-  /// Stiffens base faces that are much farther away than others, with the ones around them; false where there are none.
-  bool hold_what_is_far(const std::vector<double>& errors, std::vector<double>& stiffness) const {
-    constexpr double kFar = 50.0, kStiffer = 10.0, kStiffest = 3.0;
-    std::vector<double> sorted = errors;
-    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-    // Below, distances are rounding.
-    constexpr double kRounding = 1e-28;
-    const double limit = std::max(kFar * sorted[sorted.size() / 2], kRounding);
-    std::vector<char> touched(levels_.front().vertex_count, 0);
-    bool any = false;
-    for (std::size_t f = 0; f < errors.size(); ++f) {
-      if (!(errors[f] > limit)) continue;
-      any = true;
-      for (int v : levels_.front().faces[f]) touched[v] = 1;
-    }
-    for (std::size_t f = 0; f < errors.size(); ++f) {
-      const Triangle& t = levels_.front().faces[f];
-      if (touched[t[0]] || touched[t[1]] || touched[t[2]]) stiffness[f] = std::min(kStiffest, kStiffer * stiffness[f]);
-    }
-    return any;
   }
 
   SemiregularMesh result(Attempt attempt) const {

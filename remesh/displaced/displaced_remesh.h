@@ -18,11 +18,11 @@ struct DisplacedOptions {
 
 /// A remesh as a smooth surface and one number a vertex (Lee, Moreton, Hoppe 2000): control points, one for each base
 /// vertex, whose Loop surface is near `surface`, and displacements along its normals at the vertices of `level` that
-/// lead back to it; on boundaries a second one along the conormal. Where a base face stays far away, its control points
-/// are held closer to the map's places, and all is fitted again.
+/// lead back to it; on boundaries a second one along the conormal. Where a base face stays far away, edges count too
+/// and its control points are held closer to the map's places (PatchCare), and all is fitted again, six times at most.
 ///
 /// `surface`: sampled, of `level` or finer; at least one level more gives the fit points to go by. `progress` notes how
-/// many normals of a sampled remesh meet no surface. The same bits for any number of threads. O(V). Throws Error:
+/// many normals of a sampled remesh meet no surface. The same bits for any number of threads. O(V log V). Throws Error:
 /// BadOption, NoArea where all vertices lie at one place, SolverFailed.
 SemiregularMesh displaced_remesh(const SemiregularMesh& surface, int level, const DisplacedOptions& options,
                                  Progress& progress);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesh/parallel.h"
+#include "remesh/displaced/edge_watch.h"
 #include "remesh/vertex_system.h"
 
 namespace gsp {
@@ -26,7 +27,11 @@ class DisplacementFit {
         places_(target.vertex_places(finest_.vertex_count)),
         squared_(samples.size()),
         squared_back_(start.size()),
-        reach_(longest_edges(finest_, surface.points)) {
+        reach_(longest_edges(finest_, surface.points)),
+        springs_(finest_.edge_count(), options.stiffness),
+        watch_(finest_, surface.points, target, watched_edges()) {
+    constexpr double kStiffer = 10.0;
+    for (int e : watched_edges()) springs_[e] *= kStiffer;
     for (double& reach : reach_) reach *= options.reach;
   }
 
@@ -42,6 +47,17 @@ class DisplacementFit {
   }
 
  private:
+  /// Beside faces of watched patches.
+  std::vector<int> watched_edges() const {
+    std::vector<int> edges;
+    if (options_.watched.empty()) return edges;
+    const int patch_shift = 2 * static_cast<int>(levels_.size() - 1);
+    const auto watched = [&](int face) { return face >= 0 && options_.watched[face >> patch_shift]; };
+    for (int e = 0; e < finest_.edge_count(); ++e)
+      if (const auto [f, g] = finest_.edge_faces[e]; watched(f) || watched(g)) edges.push_back(e);
+    return edges;
+  }
+
   /// The quadratic form of moves along the surface.
   Eigen::Matrix3d hold(std::size_t v) const {
     const Vec3 &n = surface_.normals[v], &c = surface_.conormals[v];
@@ -73,14 +89,18 @@ class DisplacementFit {
       for (std::size_t v = begin; v < end; ++v)
         squared_back_[v] = walk_to_nearest(target_.level, target_.positions, positions_[v], places_[v]);
     });
+    watch_.find_places(positions_);
   }
 
   double energy_of(const std::vector<Vec3>& moves, const std::vector<Vec3>& carried) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < squared_.size(); ++i) sum += samples_[i].weight * squared_[i];
     for (double squared : squared_back_) sum += squared;
-    for (const auto& [a, b] : finest_.edges)
-      sum += options_.stiffness * (moves[a] - start_[a] - moves[b] + start_[b]).squaredNorm();
+    sum += watch_.energy();
+    for (int e = 0; e < finest_.edge_count(); ++e) {
+      const auto [a, b] = finest_.edges[e];
+      sum += springs_[e] * (moves[a] - start_[a] - moves[b] + start_[b]).squaredNorm();
+    }
     for (std::size_t v = 0; v < moves.size(); ++v) {
       const Vec3 off = moves[v] - carried[v];
       sum += off.dot(hold(v) * off);
@@ -130,9 +150,10 @@ class DisplacementFit {
       }
       system.add_to_vertex(static_cast<int>(v), form, pull);
     }
+    watch_.add_to(system);
     for (int e = 0; e < finest_.edge_count(); ++e) {
       const auto [a, b] = finest_.edges[e];
-      system.add_spring(e, options_.stiffness, -options_.stiffness * (moves_[a] - start_[a] - moves_[b] + start_[b]));
+      system.add_spring(e, springs_[e], -springs_[e] * (moves_[a] - start_[a] - moves_[b] + start_[b]));
     }
     return system;
   }
@@ -151,6 +172,8 @@ class DisplacementFit {
   std::vector<Vec3> positions_;
   std::vector<double> squared_, squared_back_;
   std::vector<double> reach_;
+  std::vector<double> springs_;  ///< #E, their stiffness
+  EdgeWatch watch_;
 };
 
 }  // namespace

@@ -27,6 +27,9 @@ struct DisplacementFitOptions {
   int most_rounds;       ///< >= 0
   double tangential;     ///< > 0, weight of what lies neither along the normal nor along the conormal
   double enough = 0.03;  ///< share of the energy by which a round must lower it for another one
+  /// #F of the base, or none: where the remesh breaks without more. Midpoints of edges count there (edge_watch.h), and
+  /// springs are ten times stiffer.
+  std::vector<char> watched = {};
 };
 
 /// Moves of vertices from the smooth surface, in least squares nearest to the target: distances of its samples from the

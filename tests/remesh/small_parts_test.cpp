@@ -11,7 +11,9 @@
 #include "remesh/displaced/control_fit.h"
 #include "remesh/displaced/control_system.h"
 #include "remesh/displaced/displacement_fit.h"
+#include "remesh/displaced/edge_watch.h"
 #include "remesh/displaced/fit_target.h"
+#include "remesh/displaced/patch_care.h"
 #include "remesh/filters/filter.h"
 #include "remesh/lattice_corners.h"
 #include "remesh/normal/remesh_domain.h"
@@ -232,6 +234,55 @@ TEST_CASE("a plane pierced along normals is as far as it is lifted, and a fit go
   const std::vector<Vec3> moves = fit_displacements(levels, flat, target, {0.01, 1e-3, 1.0, 10, 10.0, 1e-4}, samples,
                                                     std::vector<Vec3>(flat.points.size(), Vec3::Zero()));
   for (const Vec3& move : moves) CHECK(move.z() == Approx(0.05).epsilon(0.02));
+}
+
+TEST_CASE("edges that are watched lie as far from a plane as it is lifted, the more the longer they are drawn") {
+  const auto levels = subdivision_levels(16, shapes::grid(3, 3).faces, 1);
+  std::vector<Vec3> flat = smooth_surface(levels, shapes::grid(3, 3).positions).points, lifted = flat;
+  for (Vec3& p : lifted) p.z() += 0.5;
+  const FitTarget target{levels.back(), flat};
+  const int inner =
+      static_cast<int>(std::find(levels[1].creased.begin(), levels[1].creased.end(), 0) - levels[1].creased.begin());
+  EdgeWatch watch(levels.back(), flat, target, {inner});
+  watch.find_places(flat);
+  CHECK(watch.energy() < 1e-25);
+  watch.find_places(lifted);
+  CHECK(watch.energy() == Approx(10.0 * 0.25));
+  // The slope of half the energy: both ends have half of the midpoint's.
+  const std::vector<char> free(flat.size(), 1);
+  VertexSystem system(levels.back(), free);
+  watch.add_to(system);
+  for (int v = 0; v < levels[1].vertex_count; ++v) {
+    const bool end = v == levels[1].edges[inner][0] || v == levels[1].edges[inner][1];
+    CHECK((system.right()[v] - Vec3(0, 0, end ? -0.5 * 10.0 * 0.5 : 0.0)).norm() < 1e-12);
+  }
+  for (Vec3& p : lifted) p.head<2>() *= 2.0;
+  watch.find_places(lifted);
+  CHECK(watch.energy() > 3.99 * 10.0 * 0.25);
+}
+
+TEST_CASE("what breaks goes farther step by step, and each face ends as it was best") {
+  // A strip of 8 triangles of two rows: faces 0 and 7 have no vertex in common.
+  const Mesh strip = shapes::grid(4, 1);
+  const std::vector<double> areas(8, 0.125);
+  PatchCare care(strip.vertex_count(), strip.faces, areas);
+  CHECK(care.now() == std::vector<int>(8, 0));
+  std::vector<double> errors(8, 1.0);
+  CHECK_FALSE(care.learn(errors));
+  errors[0] = 100.0;
+  PatchCare broken(strip.vertex_count(), strip.faces, areas);
+  CHECK(broken.learn(errors));
+  CHECK(broken.now()[0] == 1);
+  CHECK(broken.now()[7] == 0);
+  errors[0] = 60.0;  // better, and not enough
+  CHECK(broken.learn(errors));
+  CHECK(broken.now()[0] == 2);
+  errors[0] = 200.0;  // worse: a step farther all the same
+  CHECK(broken.learn(errors));
+  CHECK(broken.now()[0] == 3);
+  CHECK(broken.learn(errors));  // nothing is left to try: back to the best
+  CHECK(broken.now()[0] == 1);
+  CHECK_FALSE(broken.learn(errors));
 }
 
 TEST_CASE("the faces of a regular remesh are equal triangles of their charts, at every level") {
