@@ -67,8 +67,8 @@ TEST_CASE("no face of a normal remesh folds in the domain, on all small shared s
   CHECK(surfaces > 10);
 }
 
-// Hidden, since it takes minutes: test_normal_surfaces "[closed]" names them one by one on standard error. Slow as well,
-// since a filter that leaves out the slow ones alone takes hidden ones in.
+// Hidden, since it takes minutes: test_normal_surfaces "[closed]" names them one by one on standard error. Slow as
+// well, since a filter that leaves out the slow ones alone takes hidden ones in.
 TEST_CASE("no face of a normal remesh folds in the domain, on all closed shared surfaces", "[.][closed][slow]") {
   const std::string shared = shared_meshes();
   REQUIRE_FALSE(shared.empty());
